@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The particle schema: one row a field. From it come the arrays of Parts, reading and writing, the device copies, the messages
+ * about missing fields, docs/schema.md and the tests. Units are SI; arrays are [n] or [n][width].
+ * F(type, member, width, dataset, unit, made by, meaning); `made by` names the program that makes the field. */
+#ifndef FIELDS_H
+#define FIELDS_H
+
+#include <stdint.h>
+
+/* clang-format off */
+#define FIELDS(F) \
+  F(int64_t, id,     1, "ParticleIDs",      "1",        "mksphere", "unique, never renumbered") \
+  F(double,  x,      3, "Coordinates",      "m",        "mksphere", "position") \
+  F(double,  v,      3, "Velocities",       "m/s",      "mksphere", "velocity") \
+  F(double,  m,      1, "Masses",           "kg",       "mksphere", "mass") \
+  F(double,  rho,    1, "Density",          "kg/m^3",   "mksphere", "bulk density") \
+  F(double,  u,      1, "InternalEnergy",   "J/kg",     "mksphere", "specific internal energy") \
+  F(double,  h,      1, "SmoothingLength",  "m",        "mksphere", "radius at which the kernel vanishes") \
+  F(int32_t, mat,    1, "MaterialID",       "1",        "mksphere", "index into /Materials") \
+  F(int32_t, body,   1, "BodyID",           "1",        "mksphere", "body of origin: target 0, impactor 1") \
+  F(double,  p,      1, "Pressure",         "Pa",       "relax",    "pressure, negative in tension, before damage") \
+  F(double,  cs,     1, "SoundSpeed",       "m/s",      "relax",    "adiabatic bulk sound speed") \
+  F(double,  s,      6, "DeviatoricStress", "Pa",       "relax",    "deviatoric stress xx xy xz yy yz zz, before damage") \
+  F(double,  damage, 1, "Damage",           "1",        "weibull",  "0 intact, 1 fully damaged") \
+  F(int32_t, nact,   1, "ActiveFlaws",      "1",        "solver",   "flaws activated so far") \
+  F(double,  phi,    1, "Potential",        "J/kg",     "solver",   "specific gravitational potential") \
+  F(double,  pmax,   1, "PeakPressure",     "Pa",       "solver",   "largest pressure so far") \
+  F(double,  strain, 1, "PlasticStrain",    "1",        "solver",   "accumulated equivalent plastic strain") \
+  F(int32_t, nngb,   1, "NeighbourNumber",  "1",        "solver",   "interacting particles, without itself") \
+  F(int32_t, frag,   1, "FragmentID",       "1",        "fof",      "fragment, 1 = most massive, 0 = none") \
+  F(int32_t, clump,  1, "ClumpID",          "1",        "clumps",   "bound body, 1 = most massive, 0 = none")
+
+/* What only a checkpoint holds: the derivatives that the next step starts from. */
+#define CHECKPOINT_FIELDS(F) \
+  F(double,  a,      3, "Acceleration",     "m/s^2",    "solver",   "acceleration") \
+  F(double,  dudt,   1, "EnergyRate",       "W/kg",     "solver",   "du/dt of the last force loop") \
+  F(double,  dqdt,   1, "ViscousHeating",   "W/kg",     "solver",   "viscous part of du/dt") \
+  F(double,  divv,   1, "VelocityDivergence", "1/s",    "solver",   "divergence of the velocity, uncorrected sum") \
+  F(double,  delta,  1, "NumberDensity",    "1/m^3",    "solver",   "kernel sum over neighbours (miscible density)")
+
+#define ALL_FIELDS(F) FIELDS(F) CHECKPOINT_FIELDS(F)
+/* clang-format on */
+
+#endif

@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Materials from libconfig text: which laws, and their parameters. The laws and their rows are in physics/. */
+#ifndef LIB_MATERIAL_H
+#define LIB_MATERIAL_H
+
+#include "../physics/material.h"
+#include "part.h"
+
+/* material_find: the text of a material given by name (`basalt`) or by a path to a .cfg. Looked for in $BRECCIA_MATERIALS,
+ * ./materials, and beside the program (../materials, ../share/breccia/materials). Unknown names get the nearest known one.
+ * malloc'ed text, or NULL. `name` receives the material's own name. */
+char *material_find(const char *name_or_path, char name[64], Err *err);
+
+/* material_parse: text into laws and parameters; every error is `label:line: ...`. */
+int material_parse(Material *m, const char *text, const char *label, Err *err);
+
+/* material_load: all materials of a snapshot, parsed, [p->materials]; malloc'ed. */
+Material *material_load(const Parts *p, Err *err);
+
+#endif

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A material: the form of each law and its parameters. Looked up as material[mat[i]]; SI units (the reader sees to it). */
+#ifndef PHYSICS_MATERIAL_H
+#define PHYSICS_MATERIAL_H
+
+#include "eos.h"
+#include "yield.h"
+#include "damage.h"
+
+typedef struct {
+  Eos eos;       /* equation of state */
+  double mu;     /* shear modulus [Pa]; 0: a fluid, no deviatoric stress */
+  Yield yield;   /* limit of the deviatoric stress */
+  Damage damage; /* brittle fragmentation */
+  double melt;   /* specific energy at which the material melts [J/kg]; 0: unknown */
+} Material;
+
+/* material_brittle: whether weibull gives it flaws. */
+HD int material_brittle(const Material *m) { return m->damage.form != DAMAGE_NONE; }
+
+/* material_young: Young's modulus [Pa] E = 9 K mu / (3 K + mu), K the bulk modulus of the EOS at zero pressure (001 eq. 49). */
+HD double material_young(const Material *m)
+{
+  double k = eos_bulk(&m->eos);
+  return m->mu > 0 ? 9 * k * m->mu / (3 * k + m->mu) : 0;
+}
+
+#endif

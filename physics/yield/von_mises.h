@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Von Mises: radial return, f = min(Y/sqrt(3 J2), 1), so that sqrt(3 J2) = Y after it. Corrects 001 eq. 17, which prints
+ * Y^2/(3 J2); that form is benz_asphaug.h. */
+#ifndef YIELD_VON_MISES_H
+#define YIELD_VON_MISES_H
+
+/* clang-format off */
+#define YIELD_VON_MISES_ROWS(X) \
+  X(Y, "Pa", NULL, 0, 1e300, "yield stress")
+/* clang-format on */
+
+struct yield_von_mises {
+#define YIELD_ROW(MEMBER, ...) double MEMBER;
+  YIELD_VON_MISES_ROWS(YIELD_ROW)
+#undef YIELD_ROW
+};
+
+HD double yield_von_mises(const struct yield_von_mises *y, double j2, double p, double damage, double soft)
+{
+  double limit = y->Y * soft, stress = sqrt(3 * j2);
+  (void)p, (void)damage;
+  return stress > limit ? limit / stress : 1;
+}
+
+#endif
