@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Progress of long work on stderr: percent, a note, time to go. A line rewritten in place on a terminal; otherwise one plain
- * line now and then (at most every `seconds`). */
+/* Progress of long work on stderr: percent, a note, time to go. A line rewritten in place on a
+ * terminal; otherwise one plain line now and then (at most every `seconds`). */
 #ifndef PROGRESS_H
 #define PROGRESS_H
 
 typedef struct {
   const char *what;
   double started, shown, seconds; /* wall clock s */
+  double first;                   /* fraction that was done at the first call; < 0: none yet */
   int terminal, width;
 } Progress;
 
