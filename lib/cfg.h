@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* libconfig files read by rows of parameters. Every mistake is `file:line: ...`: syntax, unknown key (with the nearest known),
- * wrong type, missing key, value out of range, wrong unit. Integers are accepted where a float is meant; a value may be a
- * string with a unit ("2.7 g/cc"). */
+/* libconfig files read by rows of parameters. Every mistake is `file:line: ...`: syntax, unknown
+ * key (with the nearest known), wrong type, missing key, value out of range, wrong unit. Integers
+ * are accepted where a float is meant; a value may be a string with a unit ("2.7 g/cc"). */
 #ifndef CFG_H
 #define CFG_H
 
@@ -21,20 +21,22 @@ typedef struct {
   const char *meaning;
 } CfgRow;
 
-/* cfg_open: parses a file, or a text when path_is_label is true (then `text` is parsed and `path` only names it in messages).
+/* cfg_open: parses a file; cfg_open_text: a text, which label names in messages.
  * Returns 0 or -1; on success the caller owns *cfg (config_destroy). */
 int cfg_open(config_t *cfg, const char *path, Err *err);
 int cfg_open_text(config_t *cfg, const char *text, const char *label, Err *err);
 
-/* cfg_read: fills `into` from a group by rows[n]; defaults first. label names the file in messages (libconfig's own file name
- * wins if it has one). Keys not in rows are errors unless they are listed in also[nalso] (sub-groups read separately). */
-int cfg_read(const config_setting_t *group, const CfgRow *rows, int n, void *into, const char *const *also, int nalso,
-             const char *label, Err *err);
+/* cfg_read: fills `into` from a group by rows[n]; defaults first. label names the file in messages
+ * (libconfig's own file name wins if it has one). Keys not in rows are errors unless they are
+ * listed in also[nalso] (sub-groups read separately). */
+int cfg_read(const config_setting_t *group, const CfgRow *rows, int n, void *into,
+             const char *const *also, int nalso, const char *label, Err *err);
 
 /* cfg_set: one `key=value` as given by --set; the same checks. */
 int cfg_set(const CfgRow *rows, int n, void *into, const char *key, const char *value, Err *err);
 
-/* cfg_text: the value of a row as text in SI ("0.4", "true", "wendland_c2"), for /Parameters and logs; returns buf. */
+/* cfg_text: the value of a row as text in SI ("0.4", "true", "wendland_c2"), for /Parameters and
+ * logs; returns buf. */
 const char *cfg_text(const CfgRow *row, const void *from, char *buf, int size);
 
 /* cfg_where: err_set with `file:line: ` of the setting in front. Returns -1. */

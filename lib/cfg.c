@@ -1,0 +1,224 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Every value, from a default, a file or --set, ends in one of two functions: a number
+ * (store_number) or a text (store_text). */
+#include <errno.h>
+#include <limits.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include "cfg.h"
+#include "unit.h"
+
+enum { TEXT_SIZE = 64, MAX_NAMES = 256 };
+
+int cfg_where(Err *err, const config_setting_t *setting, const char *label, const char *format, ...)
+{
+  const char *file =
+      config_setting_source_file(setting) ? config_setting_source_file(setting) : label;
+  unsigned line = config_setting_source_line(setting);
+  Err what;
+  va_list args;
+  va_start(args, format);
+  vsnprintf(what.text, sizeof what.text, format, args);
+  va_end(args);
+  if (line == 0) return err_set(err, "%s: %s", file, what.text);
+  return err_set(err, "%s:%u: %s", file, line, what.text);
+}
+
+/* What libconfig says about a parse that failed, with our label where it knows no file. */
+static int parse_failed(config_t *cfg, const char *label, Err *err)
+{
+  const char *file = config_error_file(cfg) ? config_error_file(cfg) : label;
+  err_set(err, "%s:%d: %s", file, config_error_line(cfg), config_error_text(cfg));
+  config_destroy(cfg);
+  return -1;
+}
+
+int cfg_open(config_t *cfg, const char *path, Err *err)
+{
+  struct stat st;
+  FILE *f = fopen(path, "r");
+  if (!f) return err_set(err, "cannot open '%s': %s", path, strerror(errno));
+  if (!fstat(fileno(f), &st) && S_ISDIR(st.st_mode)) {
+    fclose(f);
+    return err_set(err, "cannot read '%s': %s", path, strerror(EISDIR));
+  }
+  fclose(f);
+  config_init(cfg);
+  if (config_read_file(cfg, path) != CONFIG_TRUE) return parse_failed(cfg, path, err);
+  return 0;
+}
+
+int cfg_open_text(config_t *cfg, const char *text, const char *label, Err *err)
+{
+  config_init(cfg);
+  if (config_read_string(cfg, text) != CONFIG_TRUE) return parse_failed(cfg, label, err);
+  return 0;
+}
+
+static void *target(const CfgRow *row, void *into) { return (char *)into + row->offset; }
+
+static int in_range(const CfgRow *row, double x, Err *err)
+{
+  if (!isfinite(x)) return err_set(err, "'%s' must be finite", row->name);
+  if (row->min > row->max || (x >= row->min && x <= row->max)) return 0;
+  return err_set(err, "'%s' = %g is outside %g .. %g%s%s", row->name, x, row->min, row->max,
+                 row->type == CFG_REAL && strcmp(row->unit, "1") ? " " : "",
+                 row->type == CFG_REAL && strcmp(row->unit, "1") ? row->unit : "");
+}
+
+static int store_number(const CfgRow *row, double x, void *into, Err *err)
+{
+  if (row->type != CFG_REAL && row->type != CFG_INT)
+    return err_set(err, "'%s' must be %s", row->name,
+                   row->type == CFG_BOOL ? "true or false" : "a text in quotes");
+  if (in_range(row, x, err)) return -1;
+  if (row->type == CFG_REAL) {
+    *(double *)target(row, into) = x;
+    return 0;
+  }
+  if (x != floor(x) || fabs(x) > INT_MAX)
+    return err_set(err, "'%s' = %.15g is not a whole number", row->name, x);
+  *(int *)target(row, into) = (int)x;
+  return 0;
+}
+
+static int store_bool(const CfgRow *row, int x, void *into, Err *err)
+{
+  if (row->type != CFG_BOOL) return err_set(err, "'%s' is not a switch (true or false)", row->name);
+  *(int *)target(row, into) = x;
+  return 0;
+}
+
+/* The position of a word in "a|b|c", or -1 with the nearest one named. */
+static int choose(const CfgRow *row, const char *word, Err *err)
+{
+  char words[1024], *names[MAX_NAMES], *save = NULL;
+  const char *near;
+  int n = 0;
+  snprintf(words, sizeof words, "%s", row->unit);
+  for (char *w = strtok_r(words, "|", &save); w && n < MAX_NAMES; w = strtok_r(NULL, "|", &save))
+    names[n++] = w;
+  for (int k = 0; k < n; k++)
+    if (!strcmp(names[k], word)) return k;
+  near = unit_nearest(word, (const char *const *)names, n);
+  if (near) return err_set(err, "'%s' = '%s': did you mean '%s'?", row->name, word, near);
+  return err_set(err, "'%s' = '%s' is none of %s", row->name, word, row->unit);
+}
+
+static int store_text(const CfgRow *row, const char *text, void *into, Err *err)
+{
+  Err why;
+  double x;
+  int k;
+  switch (row->type) {
+  case CFG_REAL:
+  case CFG_INT:
+    if (unit_parse(text, row->type == CFG_REAL ? row->unit : "1", &x, &why))
+      return err_set(err, "'%s': %s", row->name, why.text);
+    return store_number(row, x, into, err);
+  case CFG_BOOL:
+    k = !strcmp(text, "true");
+    if (!k && strcmp(text, "false"))
+      return err_set(err, "'%s' must be true or false, not '%s'", row->name, text);
+    return store_bool(row, k, into, err);
+  case CFG_TEXT:
+    if (strlen(text) >= TEXT_SIZE)
+      return err_set(err, "'%s': text longer than %d characters", row->name, TEXT_SIZE - 1);
+    strcpy(target(row, into), text);
+    return 0;
+  case CFG_CHOICE:
+    k = choose(row, text, err);
+    if (k < 0) return -1;
+    *(int *)target(row, into) = k;
+    return 0;
+  }
+  return err_set(err, "'%s' has no type", row->name);
+}
+
+static int store_setting(const CfgRow *row, const config_setting_t *s, void *into, Err *err)
+{
+  switch (config_setting_type(s)) {
+  case CONFIG_TYPE_INT: return store_number(row, config_setting_get_int(s), into, err);
+  case CONFIG_TYPE_INT64: return store_number(row, (double)config_setting_get_int64(s), into, err);
+  case CONFIG_TYPE_FLOAT: return store_number(row, config_setting_get_float(s), into, err);
+  case CONFIG_TYPE_BOOL: return store_bool(row, config_setting_get_bool(s), into, err);
+  case CONFIG_TYPE_STRING: return store_text(row, config_setting_get_string(s), into, err);
+  default: return err_set(err, "'%s' must be a single value", row->name);
+  }
+}
+
+static int unknown_key(const char *key, const CfgRow *rows, int n, const char *const *also,
+                       int nalso, Err *err)
+{
+  const char *names[MAX_NAMES], *near;
+  int count = 0;
+  for (int k = 0; k < n && count < MAX_NAMES; k++) names[count++] = rows[k].name;
+  for (int k = 0; k < nalso && count < MAX_NAMES; k++) names[count++] = also[k];
+  near = unit_nearest(key, names, count);
+  if (!near) return err_set(err, "unknown key '%s'", key);
+  return err_set(err, "unknown key '%s' (did you mean '%s'?)", key, near);
+}
+
+static int is_known(const char *key, const CfgRow *rows, int n, const char *const *also, int nalso)
+{
+  for (int k = 0; k < n; k++)
+    if (!strcmp(rows[k].name, key)) return 1;
+  for (int k = 0; k < nalso; k++)
+    if (!strcmp(also[k], key)) return 1;
+  return 0;
+}
+
+int cfg_read(const config_setting_t *group, const CfgRow *rows, int n, void *into,
+             const char *const *also, int nalso, const char *label, Err *err)
+{
+  Err why;
+  if (!config_setting_is_group(group))
+    return cfg_where(err, group, label, "'%s' must be a group { ... }", config_setting_name(group));
+  for (int k = 0; k < config_setting_length(group); k++) {
+    const config_setting_t *s = config_setting_get_elem(group, (unsigned)k);
+    if (is_known(config_setting_name(s), rows, n, also, nalso)) continue;
+    unknown_key(config_setting_name(s), rows, n, also, nalso, &why);
+    return cfg_where(err, s, label, "%s", why.text);
+  }
+  for (int k = 0; k < n; k++) {
+    const config_setting_t *s = config_setting_get_member(group, rows[k].name);
+    if (!s && !rows[k].value)
+      return cfg_where(err, group, label, "missing key '%s' (%s)", rows[k].name, rows[k].meaning);
+    if (s ? store_setting(&rows[k], s, into, &why)
+          : store_text(&rows[k], rows[k].value, into, &why))
+      return cfg_where(err, s ? s : group, label, "%s%s", s ? "" : "default of ", why.text);
+  }
+  return 0;
+}
+
+int cfg_set(const CfgRow *rows, int n, void *into, const char *key, const char *value, Err *err)
+{
+  for (int k = 0; k < n; k++)
+    if (!strcmp(rows[k].name, key)) return store_text(&rows[k], value, into, err);
+  return unknown_key(key, rows, n, NULL, 0, err);
+}
+
+const char *cfg_text(const CfgRow *row, const void *from, char *buf, int size)
+{
+  const void *at = (const char *)from + row->offset;
+  const char *word = row->unit;
+  int digits = 15, skip;
+  switch (row->type) {
+  case CFG_REAL:
+    do snprintf(buf, (size_t)size, "%.*g", digits, *(const double *)at);
+    while (digits++ < 17 && strtod(buf, NULL) != *(const double *)at);
+    break;
+  case CFG_INT: snprintf(buf, (size_t)size, "%d", *(const int *)at); break;
+  case CFG_BOOL: snprintf(buf, (size_t)size, "%s", *(const int *)at ? "true" : "false"); break;
+  case CFG_TEXT: snprintf(buf, (size_t)size, "%s", (const char *)at); break;
+  case CFG_CHOICE:
+    for (skip = *(const int *)at; skip > 0; skip--) word = strchr(word, '|') + 1;
+    snprintf(buf, (size_t)size, "%.*s", (int)strcspn(word, "|"), word);
+    break;
+  }
+  return buf;
+}
