@@ -93,22 +93,6 @@ static int store_bool(const CfgRow *row, int x, void *into, Err *err)
   return 0;
 }
 
-/* The position of a word in "a|b|c", or -1 with the nearest one named. */
-static int choose(const CfgRow *row, const char *word, Err *err)
-{
-  char words[1024], *names[MAX_NAMES], *save = NULL;
-  const char *near;
-  int n = 0;
-  snprintf(words, sizeof words, "%s", row->unit);
-  for (char *w = strtok_r(words, "|", &save); w && n < MAX_NAMES; w = strtok_r(NULL, "|", &save))
-    names[n++] = w;
-  for (int k = 0; k < n; k++)
-    if (!strcmp(names[k], word)) return k;
-  near = unit_nearest(word, (const char *const *)names, n);
-  if (near) return err_set(err, "'%s' = '%s': did you mean '%s'?", row->name, word, near);
-  return err_set(err, "'%s' = '%s' is none of %s", row->name, word, row->unit);
-}
-
 static int store_text(const CfgRow *row, const char *text, void *into, Err *err)
 {
   Err why;
@@ -131,8 +115,8 @@ static int store_text(const CfgRow *row, const char *text, void *into, Err *err)
     strcpy(target(row, into), text);
     return 0;
   case CFG_CHOICE:
-    k = choose(row, text, err);
-    if (k < 0) return -1;
+    k = unit_choice(text, row->unit, &why);
+    if (k < 0) return err_set(err, "'%s': %s", row->name, why.text);
     *(int *)target(row, into) = k;
     return 0;
   }

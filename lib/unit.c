@@ -113,6 +113,21 @@ const char *unit_nearest(const char *word, const char *const *candidates, int n)
   return best;
 }
 
+int unit_choice(const char *word, const char *choices, Err *err)
+{
+  char copy[1024], *names[64], *save = NULL;
+  const char *near;
+  int n = 0;
+  snprintf(copy, sizeof copy, "%s", choices);
+  for (char *w = strtok_r(copy, "|", &save); w && n < 64; w = strtok_r(NULL, "|", &save)) {
+    if (!strcmp(w, word)) return n;
+    names[n++] = w;
+  }
+  near = unit_nearest(word, (const char *const *)names, n);
+  if (near) return err_set(err, "unknown word '%s' (did you mean '%s'?)", word, near);
+  return err_set(err, "'%s' is none of %s", word, choices);
+}
+
 static int unknown(const char *name, Err *err)
 {
   const char *near = unit_nearest(name, NAMES, COUNT);

@@ -25,6 +25,10 @@ int unit_suffix(const char *text, double *number, const char **suffix, Err *err)
  * (regardless of case; more than a third of the word would have to change). */
 const char *unit_nearest(const char *word, const char *const *candidates, int n);
 
+/* unit_choice: the position of word in choices "a|b|c", or -1 (the message names the nearest, or
+ * all of them). */
+int unit_choice(const char *word, const char *choices, Err *err);
+
 /* unit_time_text, unit_length_text: a value in the unit a person would choose ("93.3 min", "437
  * km"); returns buf. */
 const char *unit_time_text(double seconds, char *buf, int size);
