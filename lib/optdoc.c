@@ -57,13 +57,13 @@ static void wrap(const char *text, int column, int indent)
 {
   while (*text) {
     int length = (int)strcspn(text, " \n");
-    if (column > indent && column + length > WIDTH) column = printf("\n%*s", indent, "") - 1;
+    if (column > indent && column + 1 + length > WIDTH)
+      column = printf("\n%*s", indent, "") - 1;
+    else if (column > indent && length > 0)
+      column += printf(" ");
     column += printf("%.*s", length, text);
     text += length;
-    if (*text == '\n')
-      column = printf("\n%*s", indent, "") - 1;
-    else if (*text)
-      column += printf(" ");
+    if (*text == '\n') column = printf("\n%*s", text[1] == '\n' ? 0 : indent, "") - 1;
     if (*text) text++;
   }
   putchar('\n');

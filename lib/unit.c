@@ -206,8 +206,9 @@ int unit_parse(const char *text, const char *kind, double *si, Err *err)
   else if (parse_unit(suffix, &unit, &why))
     return err_set(err, "'%s': %s", text, why.text);
   if (memcmp(unit.power, want.power, sizeof unit.power)) {
-    if (!strcmp(kind, "1")) return err_set(err, "'%s': unit '%s' where none belongs", text, suffix);
-    return err_set(err, "'%s': unit '%s' is not one of '%s'", text, suffix, kind);
+    if (!strcmp(kind, "1"))
+      return err_set(err, "'%s': a plain number is wanted, without '%s'", text, suffix);
+    return err_set(err, "'%s': wanted a unit like '%s', not '%s'", text, kind, suffix);
   }
   number = (double)(number * unit.factor / want.factor);
   if (!isfinite(number)) return err_set(err, "'%s' is too large", text);
