@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Brittle damage after Grady & Kipp (1980) with explicit flaws, as in Benz & Asphaug (1994, 1995) and 001 sect. 2.7 and 3.2.
- * D in 0..1 is the damage; what grows at a constant rate is D^(1/3). */
+/* Brittle damage after Grady & Kipp (1980) with explicit flaws, as in Benz & Asphaug (1994, 1995)
+ * and 001 sect. 2.7 and 3.2. D in 0..1 is the damage; what grows at a constant rate is D^(1/3). */
 #ifndef DAMAGE_H
 #define DAMAGE_H
 
@@ -14,13 +14,18 @@ typedef enum {
 #define DAMAGE_ENUM(CAPITAL, NAME) DAMAGE_##CAPITAL,
   DAMAGE_LAWS(DAMAGE_ENUM)
 #undef DAMAGE_ENUM
-  DAMAGE_COUNT
+      DAMAGE_COUNT
 } DamageForm;
 
-/* Parameters: X(member, SI unit, default, min, max, meaning). The Weibull k spans 1e22..1e61: double only. */
+/* DAMAGE_WORDS: "none|grady_kipp" in the order of the enum. */
+#define DAMAGE_WORD(CAPITAL, NAME) "|" #NAME
+#define DAMAGE_WORDS               "none" DAMAGE_LAWS(DAMAGE_WORD)
+
+/* Parameters: X(member, SI unit, default, min, max, meaning). The Weibull k spans 1e22..1e61:
+ * double only. */
 /* clang-format off */
 #define DAMAGE_GRADY_KIPP_ROWS(X) \
-  X(k,     "1/m^3", NULL,  1e-300, 1e300, "Weibull k: flaws per volume weaker than strain e: k e^m") \
+  X(k,     "1/m^3", NULL,  1e-300, 1e300, "Weibull k: k e^m flaws a volume fail below strain e") \
   X(m,     "1",     NULL,  1,      100,   "Weibull m") \
   X(crack, "1",     "0.4", 0,      1,     "crack speed in units of the longitudinal wave speed")
 /* clang-format on */
@@ -42,20 +47,26 @@ HD int damage_active(const double *flaw, int n, double e)
   int low = 0, high = n;
   while (low < high) {
     int mid = (low + high) / 2;
-    if (flaw[mid] < e) low = mid + 1;
-    else high = mid;
+    if (flaw[mid] < e)
+      low = mid + 1;
+    else
+      high = mid;
   }
   return low;
 }
 
-/* damage_crack_speed: c_g [m/s] = crack sqrt((K + 4/3 mu (1-D))/rho). Corrects 001 eq. 24 (units). */
-HD double damage_crack_speed(const struct damage_grady_kipp *d, double bulk, double mu, double damage, double rho)
+/* damage_crack_speed: c_g [m/s] = crack sqrt((K + 4/3 mu (1-D))/rho), K and mu in Pa. Corrects the
+ * units of 001 eq. 24. */
+HD double damage_crack_speed(const struct damage_grady_kipp *d, double bulk, double mu,
+                             double damage, double rho)
 {
   return d->crack * sqrt((bulk + 4. / 3 * mu * (1 - damage)) / rho);
 }
 
-/* damage_grow: D after dt [s] with nact of ntot flaws active: D^(1/3) grows at nact cg/rs (001 eq. 46, rs = h: the kernel's
- * support, as the peers do), and D <= nact_ever/ntot (001 eq. 47, the limiter acts on D). Never shrinks. */
+/* damage_grow: D after dt [s] with nact of ntot flaws active now and `ever` so far. D^(1/3) grows at
+ * nact cg/rs (001 eq. 46), rs [m] the radius of the volume that a flaw has to cross: h, the kernel's
+ * support, as in miluphcuda. D <= ever/ntot (001 eq. 47: the limit is one of D, not of D^(1/3)).
+ * Never shrinks. */
 HD double damage_grow(double damage, int nact, int ever, int ntot, double cg, double rs, double dt)
 {
   double d = cbrt(damage) + nact * cg / rs * dt, limit = ntot > 0 ? (double)ever / ntot : 0;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The language of physics/: one source for gcc, clang and nvcc. The only file that knows the compiler.
- * HD marks a function that runs on host and device; everything in physics/ is HD, without globals, I/O or malloc. */
+/* The language of physics/: one source for gcc, clang and nvcc. The only file that knows the
+ * compiler. HD marks a function that runs on host and device; everything in physics/ is HD, without
+ * globals, I/O or malloc. */
 #ifndef HD_H
 #define HD_H
 
@@ -9,10 +10,10 @@
 #include <stdint.h>
 
 #ifdef __CUDACC__
-#define HD static __host__ __device__ __forceinline__
+#define HD       static __host__ __device__ __forceinline__
 #define RESTRICT __restrict__
 #else
-#define HD static inline __attribute__((always_inline, unused))
+#define HD       static inline __attribute__((always_inline, unused))
 #define RESTRICT restrict
 #endif
 

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* SPH kernels W(r, h) = sigma_D/h^D w(q), q = r/h, w = 0 at q >= 1: h is the radius of the support. D = 1, 2, 3.
- * A kernel is w(q), its slope dw/dq, and three normalisations; a new one: those and one X. The kernel is a literal argument of
- * the pair loops, so that the switch folds away. Normalisations: validation.md B23; each integrates to 1. */
+/* SPH kernels W(r, h) = sigma/h^D w(q), q = r/h, D = 1, 2, 3. h is the radius of the support: w = 0
+ * for q >= 1 (001 eq. 25). grad_i W = sigma/h^(D+2) dwq(q) r_ij with dwq = (dw/dq)/q, which stays
+ * finite at q = 0. A kernel is w, dwq and three sigma; a new one: two functions and one X. The
+ * kernel is a literal argument of the pair loops, so that the switch folds away; the rest has no
+ * branches, only selects, so that the loops vectorise. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -9,25 +11,170 @@
 
 #define KERNEL_PI 3.14159265358979323846
 
-/* X(CAPITAL, name, sigma 1D, 2D, 3D) */
+/* X(CAPITAL, name, sigma in 1D, 2D, 3D). Splines: Schoenberg (1946), Monaghan & Lattanzio (1985),
+ * Price (2012) eq. 5 to 8; Wendland (1995) with the norms of Dehnen & Aly (2012) table 1; spiky:
+ * Desbrun & Gascuel (1996). */
 /* clang-format off */
 #define KERNELS(X) \
-  X(CUBIC_SPLINE,   cubic_spline,   4. / 3,   40 / (7 * KERNEL_PI),  8 / KERNEL_PI) \
-  X(QUARTIC_SPLINE, quartic_spline, 3125. / 768, 46875 / (2398 * KERNEL_PI), 15625 / (512 * KERNEL_PI)) \
+  X(CUBIC_SPLINE, cubic_spline, 4. / 3, 40 / (7 * KERNEL_PI), 8 / KERNEL_PI) \
+  X(QUARTIC_SPLINE, quartic_spline, 3125. / 768, 46875 / (2398 * KERNEL_PI), \
+    15625 / (512 * KERNEL_PI)) \
   X(QUINTIC_SPLINE, quintic_spline, 243. / 40, 15309 / (478 * KERNEL_PI), 2187 / (40 * KERNEL_PI)) \
-  X(WENDLAND_C2,    wendland_c2,    5. / 4,   7 / KERNEL_PI,         21 / (2 * KERNEL_PI)) \
-  X(WENDLAND_C4,    wendland_c4,    3. / 2,   9 / KERNEL_PI,         495 / (32 * KERNEL_PI)) \
-  X(WENDLAND_C6,    wendland_c6,    55. / 32, 78 / (7 * KERNEL_PI),  1365 / (64 * KERNEL_PI)) \
-  X(SPIKY,          spiky,          2,        10 / KERNEL_PI,        15 / KERNEL_PI)
+  X(WENDLAND_C2, wendland_c2, 5. / 4, 7 / KERNEL_PI, 21 / (2 * KERNEL_PI)) \
+  X(WENDLAND_C4, wendland_c4, 3. / 2, 9 / KERNEL_PI, 495 / (32 * KERNEL_PI)) \
+  X(WENDLAND_C6, wendland_c6, 55. / 32, 78 / (7 * KERNEL_PI), 1365 / (64 * KERNEL_PI)) \
+  X(SPIKY, spiky, 2, 10 / KERNEL_PI, 15 / KERNEL_PI)
 /* clang-format on */
 
 typedef enum {
 #define KERNEL_ENUM(CAPITAL, ...) KERNEL_##CAPITAL,
   KERNELS(KERNEL_ENUM)
 #undef KERNEL_ENUM
-  KERNEL_COUNT
+      KERNEL_COUNT
 } Kernel;
 
-/* TO DO by kernel.h's author: kernel_w(kern, q), kernel_dw(kern, q) [w' with respect to q, <= 0], kernel_sigma(kern, dimension) */
+/* KERNEL_WORDS: "cubic_spline|quartic_spline|..." in the order of the enum, for options and
+ * configs. */
+#define KERNEL_WORD(CAPITAL, NAME, ...) "|" #NAME
+#define KERNEL_WORDS                    (&KERNELS(KERNEL_WORD)[1])
+
+/* (x)_+^n, the truncated powers. Not fmax: its rules for NaN keep gcc from vectorising. */
+HD double kernel_max(double a, double b) { return a > b ? a : b; }
+HD double kernel_plus(double x) { return kernel_max(x, 0); }
+HD double kernel_plus2(double x) { return kernel_plus(x) * kernel_plus(x); }
+HD double kernel_plus3(double x) { return kernel_plus2(x) * kernel_plus(x); }
+HD double kernel_plus4(double x) { return kernel_plus2(x) * kernel_plus2(x); }
+HD double kernel_plus5(double x) { return kernel_plus4(x) * kernel_plus(x); }
+
+/* Splines M4, M5, M6 in units of their support. Near q = 0 the truncated powers of dw/dq cancel to
+ * a polynomial divisible by q. */
+HD double kernel_cubic_spline(int dimension, double q)
+{
+  (void)dimension;
+  return 2 * kernel_plus3(1 - q) - 8 * kernel_plus3(0.5 - q);
+}
+
+HD double kernel_cubic_spline_dwq(int dimension, double q)
+{
+  (void)dimension;
+  return q < 0.5 ? 18 * q - 12 : -6 * kernel_plus2(1 - q) / kernel_max(q, 0.5);
+}
+
+HD double kernel_quartic_spline(int dimension, double q)
+{
+  (void)dimension;
+  return kernel_plus4(1 - q) - 5 * kernel_plus4(0.6 - q) + 10 * kernel_plus4(0.2 - q);
+}
+
+HD double kernel_quartic_spline_dwq(int dimension, double q)
+{
+  double outer = -4 * (kernel_plus3(1 - q) - 5 * kernel_plus3(0.6 - q)) / kernel_max(q, 0.2);
+  (void)dimension;
+  return q < 0.2 ? 24 * q * q - 4.8 : outer;
+}
+
+HD double kernel_quintic_spline(int dimension, double q)
+{
+  (void)dimension;
+  return kernel_plus5(1 - q) - 6 * kernel_plus5(2. / 3 - q) + 15 * kernel_plus5(1. / 3 - q);
+}
+
+HD double kernel_quintic_spline_dwq(int dimension, double q)
+{
+  double outer = -5 * (kernel_plus4(1 - q) - 6 * kernel_plus4(2. / 3 - q)) / kernel_max(q, 1. / 3);
+  (void)dimension;
+  return q < 1. / 3 ? (40 - 50 * q) * q * q - 40. / 9 : outer;
+}
+
+/* Wendland functions: one polynomial for 1D, another for 2D and 3D. */
+HD double kernel_wendland_c2(int dimension, double q)
+{
+  return dimension == 1 ? kernel_plus3(1 - q) * (1 + 3 * q) : kernel_plus4(1 - q) * (1 + 4 * q);
+}
+
+HD double kernel_wendland_c2_dwq(int dimension, double q)
+{
+  return dimension == 1 ? -12 * kernel_plus2(1 - q) : -20 * kernel_plus3(1 - q);
+}
+
+HD double kernel_wendland_c4(int dimension, double q)
+{
+  return dimension == 1 ? kernel_plus5(1 - q) * (1 + q * (5 + 8 * q))
+                        : kernel_plus3(1 - q) * kernel_plus3(1 - q) * (1 + q * (6 + 35. / 3 * q));
+}
+
+HD double kernel_wendland_c4_dwq(int dimension, double q)
+{
+  return dimension == 1 ? -14 * kernel_plus4(1 - q) * (1 + 4 * q)
+                        : -56. / 3 * kernel_plus5(1 - q) * (1 + 5 * q);
+}
+
+HD double kernel_wendland_c6(int dimension, double q)
+{
+  return dimension == 1
+             ? kernel_plus5(1 - q) * kernel_plus2(1 - q) * (1 + q * (7 + q * (19 + 21 * q)))
+             : kernel_plus4(1 - q) * kernel_plus4(1 - q) * (1 + q * (8 + q * (25 + 32 * q)));
+}
+
+HD double kernel_wendland_c6_dwq(int dimension, double q)
+{
+  return dimension == 1 ? -6 * kernel_plus5(1 - q) * kernel_plus(1 - q) * (3 + q * (18 + 35 * q))
+                        : -22 * kernel_plus5(1 - q) * kernel_plus2(1 - q) * (1 + q * (7 + 16 * q));
+}
+
+/* Spiky: slope -3 at q = 0, so dwq diverges; below q = 1e-10 grad W goes linearly to zero. */
+HD double kernel_spiky(int dimension, double q)
+{
+  (void)dimension;
+  return kernel_plus3(1 - q);
+}
+
+HD double kernel_spiky_dwq(int dimension, double q)
+{
+  (void)dimension;
+  return -3 * kernel_plus2(1 - q) / kernel_max(q, 1e-10);
+}
+
+/* kernel_w: w(q), without sigma/h^D. kern is a Kernel, dimension 1, 2 or 3, q >= 0. */
+HD double kernel_w(int kern, int dimension, double q)
+{
+  switch (kern) {
+#define KERNEL_CASE(CAPITAL, NAME, ...)                                                            \
+  case KERNEL_##CAPITAL: return kernel_##NAME(dimension, q);
+    KERNELS(KERNEL_CASE)
+#undef KERNEL_CASE
+  default: return 0;
+  }
+}
+
+/* kernel_dwq: (dw/dq)/q <= 0. */
+HD double kernel_dwq(int kern, int dimension, double q)
+{
+  switch (kern) {
+#define KERNEL_CASE(CAPITAL, NAME, ...)                                                            \
+  case KERNEL_##CAPITAL: return kernel_##NAME##_dwq(dimension, q);
+    KERNELS(KERNEL_CASE)
+#undef KERNEL_CASE
+  default: return 0;
+  }
+}
+
+/* kernel_dw: dw/dq <= 0. */
+HD double kernel_dw(int kern, int dimension, double q)
+{
+  return kernel_dwq(kern, dimension, q) * q;
+}
+
+/* kernel_sigma: the norm, such that W integrates to 1 over the line, the plane, space. */
+HD double kernel_sigma(int kern, int dimension)
+{
+  switch (kern) {
+#define KERNEL_CASE(CAPITAL, NAME, SIGMA1, SIGMA2, SIGMA3)                                         \
+  case KERNEL_##CAPITAL: return dimension == 1 ? SIGMA1 : dimension == 2 ? SIGMA2 : SIGMA3;
+    KERNELS(KERNEL_CASE)
+#undef KERNEL_CASE
+  default: return 0;
+  }
+}
 
 #endif

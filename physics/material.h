@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A material: the form of each law and its parameters. Looked up as material[mat[i]]; SI units (the reader sees to it). */
+/* A material: the form of each law and its parameters. Looked up as material[mat[i]]; SI units (the
+ * reader sees to it). */
 #ifndef PHYSICS_MATERIAL_H
 #define PHYSICS_MATERIAL_H
 
@@ -18,7 +19,8 @@ typedef struct {
 /* material_brittle: whether weibull gives it flaws. */
 HD int material_brittle(const Material *m) { return m->damage.form != DAMAGE_NONE; }
 
-/* material_young: Young's modulus [Pa] E = 9 K mu / (3 K + mu), K the bulk modulus of the EOS at zero pressure (001 eq. 49). */
+/* material_young: Young's modulus [Pa] E = 9 K mu / (3 K + mu), K the bulk modulus of the EOS at
+ * zero pressure (001 eq. 49). */
 HD double material_young(const Material *m)
 {
   double k = eos_bulk(&m->eos);

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Von Mises: radial return, f = min(Y/sqrt(3 J2), 1), so that sqrt(3 J2) = Y after it. Corrects 001 eq. 17, which prints
- * Y^2/(3 J2); that form is benz_asphaug.h. */
+/* Von Mises, radial return: f = min(Y/sqrt(3 J2), 1), so that sqrt(3 J2) = Y after it. 001 eq. 17
+ * prints Y^2/(3 J2) instead, which is benz_asphaug.h. */
 #ifndef YIELD_VON_MISES_H
 #define YIELD_VON_MISES_H
 
+/* The parameters: X(member, SI unit, default or NULL, min, max, meaning). */
 /* clang-format off */
 #define YIELD_VON_MISES_ROWS(X) \
-  X(Y, "Pa", NULL, 0, 1e300, "yield stress")
+  X(Y, "Pa", NULL, 0, 1e300, "yield stress in uniaxial tension")
 /* clang-format on */
 
 struct yield_von_mises {
@@ -15,7 +16,8 @@ struct yield_von_mises {
 #undef YIELD_ROW
 };
 
-HD double yield_von_mises(const struct yield_von_mises *y, double j2, double p, double damage, double soft)
+HD double yield_von_mises(const struct yield_von_mises *y, double j2, double p, double damage,
+                          double soft)
 {
   double limit = y->Y * soft, stress = sqrt(3 * j2);
   (void)p, (void)damage;
