@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every value, from a default, a file or --set, ends in one of two functions: a number
  * (store_number) or a text (store_text). */
+#include <ctype.h>
 #include <errno.h>
 #include <limits.h>
 #include <math.h>
@@ -8,7 +9,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include "cfg.h"
 #include "unit.h"
 
@@ -16,47 +16,97 @@ enum { TEXT_SIZE = 64, MAX_NAMES = 256 };
 
 int cfg_where(Err *err, const config_setting_t *setting, const char *label, const char *format, ...)
 {
-  const char *file =
-      config_setting_source_file(setting) ? config_setting_source_file(setting) : label;
   unsigned line = config_setting_source_line(setting);
   Err what;
   va_list args;
   va_start(args, format);
   vsnprintf(what.text, sizeof what.text, format, args);
   va_end(args);
-  if (line == 0) return err_set(err, "%s: %s", file, what.text);
-  return err_set(err, "%s:%u: %s", file, line, what.text);
+  if (line == 0) return err_set(err, "%s: %s", label, what.text);
+  return err_set(err, "%s:%u: %s", label, line, what.text);
 }
 
-/* What libconfig says about a parse that failed, with our label where it knows no file. */
-static int parse_failed(config_t *cfg, const char *label, Err *err)
+static int too_wide(const char *number, int length, int line, const char *label, Err *err)
 {
-  const char *file = config_error_file(cfg) ? config_error_file(cfg) : label;
-  err_set(err, "%s:%d: %s", file, config_error_line(cfg), config_error_text(cfg));
+  return err_set(err, "%s:%d: %.*s is too wide for a whole number (write %.*s.0)", label, line,
+                 length, number, length, number);
+}
+
+/* libconfig 1.5 wraps integers beyond 32 bits (with an L: 64) without a word, and keeps no text to
+ * look at afterwards. Returns the end of the number at p, or NULL. */
+static const char *check_number(const char *p, int line, const char *label, Err *err)
+{
+  char *end;
+  double x = strtod(p, &end);
+  int length = (int)(end - p), hex = p[0] == '0' && (p[1] == 'x' || p[1] == 'X');
+  int whole = hex || (int)strspn(p, "0123456789") == length, wide = *end == 'L';
+  if (whole && x > (wide ? 9.2e18 : INT_MAX)) {
+    too_wide(p, length, line, label, err);
+    return NULL;
+  }
+  return end + (wide ? strspn(end, "L") : 0);
+}
+
+/* The end of the comment, string or word at p, or p itself where there is none. */
+static const char *skip(const char *p)
+{
+  const char *end;
+  if (*p == '#' || !strncmp(p, "//", 2)) return p + strcspn(p, "\n");
+  if (!strncmp(p, "/*", 2)) return (end = strstr(p + 2, "*/")) ? end + 2 : p + strlen(p);
+  if (*p == '"') {
+    for (p++; *p && *p != '"'; p++)
+      if (*p == '\\' && p[1]) p++;
+    return p + (*p == '"');
+  }
+  while (isalpha((unsigned char)*p) || *p == '_') p += 1 + strspn(p + 1, "0123456789-*");
+  return p;
+}
+
+static int check_text(const char *text, const char *label, Err *err)
+{
+  int line = 1;
+  for (const char *p = text, *next; *p; p = next) {
+    next = skip(p);
+    if (next == p) {
+      if (!strncmp(p, "@include", 8))
+        return err_set(err, "%s:%d: @include is not supported", label, line);
+      next = isdigit((unsigned char)*p) || *p == '.' ? check_number(p, line, label, err) : p + 1;
+      if (!next) return -1;
+      if (next == p) next++;
+    }
+    for (; p < next; p++) line += *p == '\n';
+  }
+  return 0;
+}
+
+int cfg_open_text(config_t *cfg, const char *text, const char *label, Err *err)
+{
+  if (check_text(text, label, err)) return -1;
+  config_init(cfg);
+  if (config_read_string(cfg, text) == CONFIG_TRUE) return 0;
+  err_set(err, "%s:%d: %s", label, config_error_line(cfg), config_error_text(cfg));
   config_destroy(cfg);
   return -1;
 }
 
 int cfg_open(config_t *cfg, const char *path, Err *err)
 {
-  struct stat st;
   FILE *f = fopen(path, "r");
+  char *text = NULL;
+  size_t room = 0;
+  ssize_t length;
+  int failed;
   if (!f) return err_set(err, "cannot open '%s': %s", path, strerror(errno));
-  if (!fstat(fileno(f), &st) && S_ISDIR(st.st_mode)) {
-    fclose(f);
-    return err_set(err, "cannot read '%s': %s", path, strerror(EISDIR));
-  }
+  length = getdelim(&text, &room, 0, f);
+  if (length < 0 && ferror(f))
+    failed = err_set(err, "cannot read '%s': %s", path, strerror(errno));
+  else if (!feof(f))
+    failed = err_set(err, "cannot read '%s': not a text file", path);
+  else
+    failed = cfg_open_text(cfg, length < 0 ? "" : text, path, err);
+  free(text);
   fclose(f);
-  config_init(cfg);
-  if (config_read_file(cfg, path) != CONFIG_TRUE) return parse_failed(cfg, path, err);
-  return 0;
-}
-
-int cfg_open_text(config_t *cfg, const char *text, const char *label, Err *err)
-{
-  config_init(cfg);
-  if (config_read_string(cfg, text) != CONFIG_TRUE) return parse_failed(cfg, label, err);
-  return 0;
+  return failed;
 }
 
 static void *target(const CfgRow *row, void *into) { return (char *)into + row->offset; }
@@ -97,13 +147,15 @@ static int store_text(const CfgRow *row, const char *text, void *into, Err *err)
 {
   Err why;
   double x;
+  long count;
   int k;
   switch (row->type) {
   case CFG_REAL:
-  case CFG_INT:
-    if (unit_parse(text, row->type == CFG_REAL ? row->unit : "1", &x, &why))
-      return err_set(err, "'%s': %s", row->name, why.text);
+    if (unit_parse(text, row->unit, &x, &why)) return err_set(err, "'%s': %s", row->name, why.text);
     return store_number(row, x, into, err);
+  case CFG_INT:
+    if (unit_count(text, &count, &why)) return err_set(err, "'%s': %s", row->name, why.text);
+    return store_number(row, (double)count, into, err);
   case CFG_BOOL:
     k = !strcmp(text, "true");
     if (!k && strcmp(text, "false"))

@@ -21,14 +21,16 @@ typedef struct {
   const char *meaning;
 } CfgRow;
 
-/* cfg_open: parses a file; cfg_open_text: a text, which label names in messages.
- * Returns 0 or -1; on success the caller owns *cfg (config_destroy). */
+/* cfg_open: parses a file; cfg_open_text: a text, which label names in messages. Whole numbers too
+ * wide for libconfig, which would wrap them silently, and @include (snapshots keep the text, not
+ * the files beside it) are errors. Returns 0 or -1; on success the caller owns *cfg
+ * (config_destroy). */
 int cfg_open(config_t *cfg, const char *path, Err *err);
 int cfg_open_text(config_t *cfg, const char *text, const char *label, Err *err);
 
-/* cfg_read: fills `into` from a group by rows[n]; defaults first. label names the file in messages
- * (libconfig's own file name wins if it has one). Keys not in rows are errors unless they are
- * listed in also[nalso] (sub-groups read separately). */
+/* cfg_read: fills `into` from a group by rows[n]; defaults first. label names the file in messages.
+ * Keys not in rows are errors unless they are listed in also[nalso] (sub-groups read separately).
+ */
 int cfg_read(const config_setting_t *group, const CfgRow *rows, int n, void *into,
              const char *const *also, int nalso, const char *label, Err *err);
 

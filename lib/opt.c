@@ -2,7 +2,6 @@
 /* getopt_long reads the line; the messages are ours. Which options were given is kept for
  * opt_given, set once at start-up. */
 #include <getopt.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,25 +28,6 @@ typedef struct {
   int n;
 } Table;
 
-static int parse_int(const char *text, long *value, Err *err)
-{
-  static const struct {
-    const char *suffix;
-    double factor;
-  } SIZES[] = {{"", 1}, {"k", 1e3}, {"M", 1e6}, {"G", 1e9}};
-  const char *suffix;
-  double x;
-  unsigned k = 0;
-  if (unit_suffix(text, &x, &suffix, err)) return -1;
-  while (k < 4 && strcmp(suffix, SIZES[k].suffix)) k++;
-  if (k == 4) return err_set(err, "'%s' is not a whole number (20000, 2e4, 20k)", text);
-  x *= SIZES[k].factor;
-  if (x != floor(x)) return err_set(err, "'%s' is not a whole number", text);
-  if (fabs(x) > 0x1p53) return err_set(err, "'%s' is too large", text);
-  *value = (long)x;
-  return 0;
-}
-
 static int append(OptList *list, const char *text, Err *err)
 {
   const char **more = realloc(list->text, (size_t)(list->n + 1) * sizeof *more);
@@ -61,7 +41,7 @@ static int store(const Opt *o, const char *text, Err *err)
 {
   switch (o->type) {
   case OPT_FLAG: *(int *)o->to = 1; return 0;
-  case OPT_INT: return parse_int(text, o->to, err);
+  case OPT_INT: return unit_count(text, o->to, err);
   case OPT_REAL: return unit_parse(text, o->unit ? o->unit : "1", o->to, err);
   case OPT_CHOICE:
     if (unit_choice(text, o->unit, err) < 0) return -1;

@@ -216,6 +216,25 @@ int unit_parse(const char *text, const char *kind, double *si, Err *err)
   return 0;
 }
 
+int unit_count(const char *text, long *count, Err *err)
+{
+  static const struct {
+    const char *suffix;
+    double factor;
+  } SIZES[] = {{"", 1}, {"k", 1e3}, {"M", 1e6}, {"G", 1e9}};
+  const char *suffix;
+  double x;
+  int k = 0;
+  if (unit_suffix(text, &x, &suffix, err)) return -1;
+  while (k < 4 && strcmp(suffix, SIZES[k].suffix)) k++;
+  if (k == 4) return err_set(err, "'%s' is not a whole number (20000, 2e4, 20k)", text);
+  x *= SIZES[k].factor;
+  if (x != floor(x)) return err_set(err, "'%s' is not a whole number", text);
+  if (fabs(x) > 0x1p53) return err_set(err, "'%s' is too large", text);
+  *count = (long)x;
+  return 0;
+}
+
 typedef struct {
   double size;
   const char *name;

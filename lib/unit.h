@@ -16,6 +16,9 @@
  * products are understood. Returns 0 or -1. */
 int unit_parse(const char *text, const char *kind, double *si, Err *err);
 
+/* unit_count: a whole number: 20000, 2e4, 20k, 1M. Exact up to 2^53. Returns 0 or -1. */
+int unit_count(const char *text, long *count, Err *err);
+
 /* unit_suffix: splits "1.7vesc" into 1.7 and "vesc" for callers with units of their own (escape
  * speeds, r1+r2). *suffix points into text. Returns 0, or -1 when text does not begin with a finite
  * number. */

@@ -148,14 +148,15 @@ static void suffix(void **state)
   assert_int_equal(unit_suffix("12", &x, &rest, NULL), 0);
   assert_string_equal(rest, "");
   assert_int_equal(unit_suffix("vesc", &x, &rest, NULL), -1);
+  assert_int_equal(unit_suffix("1e999vesc", &x, &rest, NULL), -1);
 }
 
 static void nearest(void **state)
 {
-  static const char *const WORDS[] = {"rho0", "form", "bulk", "number", "damping"};
+  static const char *const WORDS[] = {"rho0", "hcp", "form", "bulk", "number", "damping"};
   (void)state;
-  assert_string_equal(unit_nearest("rh0", WORDS, N(WORDS)), "rho0");  /* one left out */
-  assert_string_equal(unit_nearest("fomr", WORDS, N(WORDS)), "form"); /* two swapped */
+  assert_string_equal(unit_nearest("rh0", WORDS, N(WORDS)), "rho0"); /* one left out */
+  assert_string_equal(unit_nearest("hpc", WORDS, N(WORDS)), "hcp");  /* two swapped */
   assert_string_equal(unit_nearest("NUMBER", WORDS, N(WORDS)), "number");
   assert_string_equal(unit_nearest("dampening", WORDS, N(WORDS)), "damping");
   assert_null(unit_nearest("zzz", WORDS, N(WORDS)));
