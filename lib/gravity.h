@@ -1,29 +1,44 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Self-gravity on the host: Barnes-Hut with quadrupoles, or direct sums. Groups of particles walk the tree together: a node is
- * accepted when size/d < theta, d the smallest distance from the group's box to the node's centre of mass, and never when its box
- * and the group's overlap. Softening is symmetric: each particle is the mass profile of a Wendland C2 kernel, with the pair's mean support
- * h_ij = (h_i + h_j)/2: a = -G m f(min(r/h_ij, 1))/max(r, h_ij)^3 r, f(1) = 1, exactly Newtonian from r = h_ij on.
- * Multipoles: validation.md A9 and C2 (004 eq. 2.72, 2.73 corrected). */
+/* Self-gravity on the host: Barnes-Hut with quadrupoles, or direct sums. Groups of particles walk
+ * the tree together: a node is accepted when size/d < theta, d the smallest distance from the
+ * group's box to the node's centre of mass, and only when the boxes are further apart than the
+ * largest softening (h_group + h_node)/2; so never when they overlap. What is not accepted is
+ * summed particle by particle.
+ *
+ * Softening is symmetric: each pair feels the mass profile of a Wendland C2 kernel with the support
+ * h_ij = (h_i + h_j)/2. With s = max(r, h_ij) and q = min(r/h_ij, 1)
+ *   a = -G m F(q) r/s^3,  phi = -G m P(q)/s,  F(1) = P(1) = 1: exactly Newtonian from r = h_ij on,
+ * and smooth at 0. Multipoles (validation.md A9, C2; 004 eq. 2.72, 2.73 corrected), Q = sum m (3
+ * r_a r_b - r^2 delta_ab): phi = -G (M/r + rQr/2r^5),  a = G (-M r/r^3 + Q r/r^5 - 5/2 rQr r/r^7).
+ */
 #ifndef GRAVITY_H
 #define GRAVITY_H
 
 #include "tree.h"
 
 typedef struct {
-  double theta; /* opening angle, 0.7 */
+  double theta; /* opening angle >= 0, 0.7; 0 opens everything */
   double G;     /* m^3/kg/s^2 */
-  int single;   /* pair arithmetic in single precision relative to the group (scaled, so that SI values do not overflow) */
+  int single; /* pair arithmetic in single precision, coordinates relative to the group's centre */
 } GravityOptions;
 
-/* gravity_tree: accelerations a [n][3] (overwritten) and potentials phi [n] (per mass, without self-energy; may be NULL) of
- * particles in tree order. h [n] supports (NULL: none, then coincident particles do not act on each other). */
-int gravity_tree(const Tree *t, const double *x, const double *m, const double *h, const GravityOptions *o, double *a,
-                 double *phi, Err *err);
+/* gravity_tree: accelerations a [n][3] (overwritten) and potentials phi [n] (per mass, without
+ * self-energy; may be NULL) of particles in tree order; x, m, h are those the tree was built with.
+ * h [n] supports (NULL: none; then coincident particles do not act on each other). The result does
+ * not depend on the number of threads. single: lengths in root edges, masses in total masses, so
+ * that SI values neither overflow nor vanish; the error is below 1e-5 of the mean |a|, except that
+ * unsoftened pairs closer than 1e-10 root edges do not act on each other. -1: no memory. */
+int gravity_tree(const Tree *t, const double *x, const double *m, const double *h,
+                 const GravityOptions *o, double *a, double *phi, Err *err);
 
-/* gravity_direct: the same by n^2 sums in double precision, any order of particles; forces are antisymmetric to rounding. */
-int gravity_direct(long n, const double *x, const double *m, const double *h, double G, double *a, double *phi, Err *err);
+/* gravity_direct: the same by n^2 sums in double precision, any order of particles; forces are
+ * antisymmetric to rounding. */
+int gravity_direct(long n, const double *x, const double *m, const double *h, double G, double *a,
+                   double *phi, Err *err);
 
-/* gravity_soft: f(q) and the potential's factor g(q), phi = -G m g(min(q,1))/max(r,h), for q = r/h in 0..1; f(1) = g(1) = 1. */
+/* gravity_soft_force, gravity_soft_potential: F(q) and P(q) above, for q = r/h in 0..1. With the
+ * enclosed mass M(q) of W = 21/(2 pi h^3) (1-q)^4 (1+4q): F = M/q^3, P = 1 + integral_q^1 M/q'^2
+ * dq'. */
 double gravity_soft_force(double q);
 double gravity_soft_potential(double q);
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Exact neighbour lists by group walks of the tree: j is a neighbour of i when r_ij < factor (h_i + h_j)/2, j != i; so lists are
- * symmetric. No particle is ever dropped: lists grow as they must. */
+/* Exact neighbour lists by group walks of the tree: j is a neighbour of i when r_ij < factor (h_i +
+ * h_j)/2, j != i; so lists are symmetric. No particle is ever dropped: lists grow as they must.
+ * Zero an Ngb before its first use. */
 #ifndef NGB_H
 #define NGB_H
 
@@ -8,23 +9,32 @@
 
 typedef struct {
   int64_t *start; /* [n + 1] */
-  uint32_t *list; /* neighbours of i (sorted index, ascending): list[start[i]] .. list[start[i+1] - 1] */
-  int64_t room;   /* allocated length of list */
+  uint32_t
+      *list; /* neighbours of i (sorted index, ascending): list[start[i]] .. list[start[i+1] - 1] */
+  int64_t room; /* allocated length of list */
   long n;
+  struct NgbShare *share; /* private to ngb.c: what each thread found */
+  int shares;
 } Ngb;
 
-/* ngb_search: lists for particles in tree order, x [n][3], h [n]. y [n][3] (or NULL) is a second set of positions of the same
- * particles, not far from x: a pair is listed when it interacts at x or at y (the solver evaluates one loop at each).
- * Parallel over groups; the result does not depend on the number of threads. */
-int ngb_search(Ngb *g, const Tree *t, const double *x, const double *y, const double *h, double factor, Err *err);
+/* ngb_search: lists for particles in tree order, x [n][3] and h [n] as the tree was built with. y
+ * [n][3] (or NULL) is a second set of positions of the same particles, not far from x up to common
+ * motion: a pair is listed when it interacts at x or at y (the solver evaluates one loop at each).
+ * Parallel over groups; the result does not depend on the number of threads. -1: no memory, x or h
+ * not those of the tree, or a y that is not finite. */
+int ngb_search(Ngb *g, const Tree *t, const double *x, const double *y, const double *h,
+               double factor, Err *err);
 
-/* ngb_point: calls visit(j, r2, data) for every particle of the tree with r < factor * max(radius, h_j) ... of a point x0 [3];
- * for interpolation (render) and for finding h: radius is a fixed search radius when h is NULL. */
+/* ngb_point: calls visit for every particle of the tree with r < max(radius, h_j) of a point x0
+ * [3], in tree order; h [n] as the tree was built with, or NULL: r < radius. r2 is r^2. */
 void ngb_point(const Tree *t, const double *x, const double *h, const double x0[3], double radius,
                void (*visit)(long j, double r2, void *data), void *data);
 
-/* ngb_smoothing: h [n] such that the kernel support holds `want` particles on average, 4/3 pi h^3 n = want with the local number
- * density (2D: pi h^2 n, 1D: 2 h n), from the distance of neighbours; iterated to 1 %. x in tree order. */
+/* ngb_smoothing: h [n] such that a support holds `want` particles (itself among them): V(h) n =
+ * want with V = 4/3 pi h^3 (2D: pi h^2, 1D: 2 h) and the local number density n = sum_j W(r_ij, h)
+ * of a Wendland C2 kernel, self included; solved to 1e-6. Beside a free surface n is the kernel's,
+ * so h grows there. x in tree order. -1: too few particles for `want`, too many at one place, no
+ * memory. */
 int ngb_smoothing(const Tree *t, const double *x, int dimension, double want, double *h, Err *err);
 void ngb_free(Ngb *g);
 

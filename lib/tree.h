@@ -1,30 +1,40 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The host octree: particles sorted along a Hilbert curve (63-bit keys, ties by id), nodes as contiguous ranges of the sorted
- * order, depth first, with skip pointers. One tree serves gravity (gravity.h) and the neighbour search (ngb.h), in the solver's CPU
- * backend and in fof, clumps, relax and render. Built from scratch it depends on the particles only, not on their order. */
+/* The host octree: particles sorted along a Hilbert curve (63-bit keys, ties by id), nodes as
+ * contiguous ranges of the sorted order, depth first, with skip pointers. One tree serves gravity
+ * (gravity.h) and the neighbour search (ngb.h), in the solver's CPU backend and in fof, clumps,
+ * relax and render. Built from scratch it depends on the particles only, neither on their order nor
+ * on the number of threads.
+ *
+ * The root cube spans the particles; a key resolves 2^-21 of its edge, and what lies closer
+ * together shares a leaf, however many they are. Dimensions in which all coordinates are equal do
+ * no harm (1D, 2D). */
 #ifndef TREE_H
 #define TREE_H
 
 #include <stdint.h>
 #include "err.h"
 
-enum { TREE_BUCKET = 16, TREE_GROUP = 64 };
+enum { TREE_BUCKET = 16, TREE_GROUP = 64, TREE_LEVELS = 21 };
 
 typedef struct {
   double lo[3], hi[3]; /* tight box of the particles [m] */
-  double com[3], mass; /* m, kg */
-  double q[6];         /* quadrupole sum m (3 r_a r_b - r^2 delta_ab) about com, xx xy xz yy yz zz [kg m^2] */
-  double hmax;         /* largest h below [m] */
-  double size;         /* edge of the cell [m] */
+  double com[3], mass; /* m, kg; without masses, or all zero: the centre of the box, 0 */
+  double
+      q[6]; /* quadrupole sum m (3 r_a r_b - r^2 delta_ab) about com, xx xy xz yy yz zz [kg m^2] */
+  double hmax; /* largest h below [m] */
+  double size; /* edge of the smallest cell, or the longest edge of the box after a refit [m] */
   int32_t first, count; /* particles first .. first+count-1 of the sorted order */
-  int32_t skip;         /* the next node when this one is not opened; the children start at the node itself + 1 */
-  int32_t leaf;         /* 1: no children */
+  int32_t skip;  /* the next node when this one is not opened; the children start at the node itself
+                    + 1 */
+  int16_t leaf;  /* 1: no children */
+  int16_t level; /* the cell is edge/2^level wide; levels without branching are left out */
 } TreeNode;
 
 typedef struct {
-  int32_t first, count; /* a group: at most TREE_GROUP consecutive sorted particles that share one walk */
-  double lo[3], hi[3];  /* m */
-  double hmax;          /* m */
+  int32_t first,
+      count; /* a group: 1 .. TREE_GROUP consecutive sorted particles that share one walk */
+  double lo[3], hi[3]; /* m */
+  double hmax;         /* m */
 } TreeGroup;
 
 typedef struct {
@@ -33,16 +43,27 @@ typedef struct {
   int32_t nodes;
   TreeGroup *group;
   int32_t groups;
-  double origin[3], edge; /* the root cube [m] */
+  double origin[3], edge; /* the root cube [m]; edge 1 when all particles coincide */
+  /* private to tree.c: allocated lengths, and the keys */
+  int32_t node_room, group_room;
+  uint64_t *key;
+  long key_room;
 } Tree;
 
-/* tree_order: the Hilbert order of particles at x [n][3]: order[k] is the particle that comes k-th; equal keys by id.
- * Returns 0, or -1 (no memory, or a coordinate that is not finite: the message names the particle's id). */
+/* tree_order: the Hilbert order of particles at x [n][3]: order[k] is the particle that comes k-th;
+ * equal keys by id (NULL: by index). Returns 0, or -1: no memory, or a coordinate that is not
+ * finite (or beyond 1e150); the message names the particle's id. */
 int tree_order(long n, const double *x, const int64_t *id, long *order, Err *err);
 
-/* tree_build: nodes and groups of particles that ARE in Hilbert order (see tree_order) at x [n][3], with masses m (NULL: none, for
- * searches only) and supports h (NULL: zeros). Reuses the memory of *t (zero it first). */
+/* tree_build: nodes and groups of particles that ARE in Hilbert order (see tree_order) at x [n][3],
+ * n > 0, with masses m (NULL: none, for searches only) and supports h (NULL: zeros). Reuses the
+ * memory of *t (zero it first). -1: no memory, a bad coordinate, or not in order. */
 int tree_build(Tree *t, long n, const double *x, const double *m, const double *h, Err *err);
+
+/* tree_refit: boxes, moments and sizes for new x, m, h of the same particles in the same order.
+ * What walks the tree stays exact; it gets slower the further the particles have moved since
+ * tree_build. */
+void tree_refit(Tree *t, const double *x, const double *m, const double *h);
 void tree_free(Tree *t);
 
 #endif

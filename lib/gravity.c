@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One walk of the tree for a group makes two lists: nodes to be taken as multipoles, and leaves.
+ * Both are packed into vectors relative to the group's centre; each target then sums over them
+ * (gravity_pair.h). */
+#include <math.h>
+#include <stdlib.h>
+#include "gravity.h"
+
+enum { PAD = 16, ALIGN = 64 };
+#define INLINE static inline __attribute__((always_inline))
+/* With M(q) = 14q^3 - 84q^5 + 140q^6 - 90q^7 + 21q^8, the mass of a Wendland C2 kernel within q. */
+#define SOFT_FORCE(q) (14 + (q) * (q) * (-84 + (q) * (140 + (q) * (-90 + (q)*21))))
+#define SOFT_POTENTIAL(q)                                                                          \
+  (3 + (q) * (q) * (-7 + (q) * (q) * (21 + (q) * (-28 + (q) * (15 - (q)*3)))))
+
+typedef struct {
+  const double *x, *m, *h; /* h may be NULL */
+  double *a, *phi;         /* phi may be NULL */
+} Bodies;
+
+typedef struct {
+  double origin[3], length, mass; /* units of the lists: m, kg */
+  double G, near;                 /* near: in units of length */
+} Scale;
+
+typedef struct {
+  int32_t *accept, *open; /* nodes; leaves in tree order */
+  long accepted, opened, particles, room;
+} Walk;
+
+static inline float root_f(float x) { return sqrtf(x); }
+static inline double root_d(double x) { return sqrt(x); }
+
+#define REAL    float
+#define NAME(x) x##_f
+#include "gravity_pair.h"
+#undef REAL
+#undef NAME
+#define REAL    double
+#define NAME(x) x##_d
+#include "gravity_pair.h"
+
+static inline double sq(double x) { return x * x; }
+
+static double box_to_point(const TreeGroup *g, const double p[3])
+{
+  double d2 = 0;
+  for (int d = 0; d < 3; d++) d2 += sq(fmax(0, fmax(g->lo[d] - p[d], p[d] - g->hi[d])));
+  return d2;
+}
+
+static double box_to_box(const TreeGroup *g, const TreeNode *p)
+{
+  double d2 = 0;
+  for (int d = 0; d < 3; d++) d2 += sq(fmax(0, fmax(g->lo[d] - p->hi[d], p->lo[d] - g->hi[d])));
+  return d2;
+}
+
+static int walk_tree(Walk *w, const Tree *t, const TreeGroup *g, double theta)
+{
+  const double itheta = theta > 0 ? 1 / theta : INFINITY;
+  w->accepted = w->opened = w->particles = 0;
+  for (int32_t k = 0; k < t->nodes;) {
+    const TreeNode *p = t->node + k;
+    if (w->accepted + w->opened >= w->room) {
+      long room = 2 * w->room + 1024;
+      int32_t *accept = realloc(w->accept, (size_t)room * sizeof *accept);
+      if (accept) w->accept = accept;
+      int32_t *open = realloc(w->open, (size_t)room * sizeof *open);
+      if (open) w->open = open;
+      if (!accept || !open) return -1;
+      w->room = room;
+    }
+    if (p->count > 1 && box_to_point(g, p->com) > sq(p->size * itheta) &&
+        box_to_box(g, p) > sq(0.5 * (g->hmax + p->hmax))) {
+      w->accept[w->accepted++] = k, k = p->skip;
+    } else if (p->leaf) {
+      w->open[w->opened++] = k, w->particles += p->count, k = p->skip;
+    } else {
+      k++;
+    }
+  }
+  return 0;
+}
+
+int gravity_tree(const Tree *t, const double *x, const double *m, const double *h,
+                 const GravityOptions *o, double *a, double *phi, Err *err)
+{
+  const Bodies p = {x, m, h, a, phi};
+  const Scale s = {
+      {0}, t->edge, t->node[0].mass > 0 ? t->node[0].mass : 1, o->G, o->single ? 1e-10 : 0};
+  int failed = 0;
+#pragma omp parallel reduction(| : failed)
+  {
+    Walk w = {0};
+    List_f nodes_f = {0}, parts_f = {0};
+    List_d nodes_d = {0}, parts_d = {0};
+#pragma omp for schedule(dynamic, 4)
+    for (int32_t k = 0; k < t->groups; k++) {
+      const TreeGroup *g = t->group + k;
+      if (failed || walk_tree(&w, t, g, o->theta) ||
+          (o->single ? group_f(&s, &p, t, g, &w, &nodes_f, &parts_f)
+                     : group_d(&s, &p, t, g, &w, &nodes_d, &parts_d)))
+        failed = 1;
+    }
+    free(w.accept), free(w.open);
+    free(nodes_f.all), free(parts_f.all), free(nodes_d.all), free(parts_d.all);
+  }
+  return failed ? err_set(err, "cannot sum the gravity of %ld particles: no memory", t->n) : 0;
+}
+
+int gravity_direct(long n, const double *x, const double *m, const double *h, double G, double *a,
+                   double *phi, Err *err)
+{
+  enum { SHARE = 64 };
+  const Bodies p = {x, m, h, a, phi};
+  const Scale s = {.length = 1, .mass = 1, .G = G};
+  int failed = 0;
+#pragma omp parallel reduction(| : failed)
+  {
+    List_d none = {0}, all = {0};
+    failed = reserve_d(&none, 0) || reserve_d(&all, n);
+    if (!failed) pack_particles_d(&all, &s, &p, 0, n), pad_d(&all);
+#pragma omp for schedule(dynamic)
+    for (long b = 0; b < n; b += SHARE)
+      if (!failed) evaluate_d(&s, &p, b, b + SHARE < n ? b + SHARE : n, &none, &all, b);
+    free(none.all), free(all.all);
+  }
+  return failed ? err_set(err, "cannot sum the gravity of %ld particles: no memory", n) : 0;
+}
+
+double gravity_soft_force(double q) { return SOFT_FORCE(q); }
+double gravity_soft_potential(double q) { return SOFT_POTENTIAL(q); }

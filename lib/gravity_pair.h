@@ -1,0 +1,156 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The sums of gravity.c in one precision; included once with REAL = float and once with double, and
+ * NAME(x) = x_f, x_d. Lists of sources are structures of arrays relative to an origin, padded by
+ * massless sources far away to a multiple of PAD, so that the loops are all vectors. */
+
+typedef struct {
+  REAL *x, *y, *z, *m, *h, *q[6]; /* h: half the support; q: nodes only */
+  REAL *all;
+  long n, room;
+} NAME(List);
+
+/* Room for n sources and the padding; the contents are lost. */
+static int NAME(reserve)(NAME(List) * l, long n)
+{
+  if (n + PAD <= l->room) return 0;
+  free(l->all);
+  l->room = (n + n / 4 + 2 * PAD) & ~(PAD - 1L);
+  l->all = aligned_alloc(ALIGN, (size_t)l->room * 11 * sizeof(REAL));
+  if (!l->all) return l->room = 0, -1;
+  REAL **part[] = {&l->x, &l->y, &l->z, &l->m, &l->h};
+  for (int k = 0; k < 5; k++) *part[k] = l->all + k * l->room;
+  for (int k = 0; k < 6; k++) l->q[k] = l->all + (5 + k) * l->room;
+  return 0;
+}
+
+static void NAME(pad)(NAME(List) * l)
+{
+  for (; l->n & (PAD - 1); l->n++) {
+    const long k = l->n;
+    l->x[k] = l->y[k] = l->z[k] = 4;
+    l->m[k] = l->h[k] = 0;
+    for (int c = 0; c < 6; c++) l->q[c][k] = 0;
+  }
+}
+
+static void NAME(pack_nodes)(NAME(List) * l, const Scale *s, const TreeNode *node,
+                             const int32_t *list, long n)
+{
+  const double im = 1 / s->mass, il = 1 / s->length, iq = im * il * il;
+  for (long k = 0; k < n; k++) {
+    const TreeNode *p = node + list[k];
+    l->x[k] = (REAL)((p->com[0] - s->origin[0]) * il);
+    l->y[k] = (REAL)((p->com[1] - s->origin[1]) * il);
+    l->z[k] = (REAL)((p->com[2] - s->origin[2]) * il);
+    l->m[k] = (REAL)(p->mass * im);
+    for (int c = 0; c < 6; c++) l->q[c][k] = (REAL)(p->q[c] * iq);
+  }
+  l->n = n;
+  NAME(pad)(l);
+}
+
+/* Appends particles b .. e-1. */
+static void NAME(pack_particles)(NAME(List) * l, const Scale *s, const Bodies *p, long b, long e)
+{
+  const double im = 1 / s->mass, il = 1 / s->length;
+  const long to = l->n - b;
+  for (long i = b; i < e; i++) {
+    l->x[to + i] = (REAL)((p->x[3 * i] - s->origin[0]) * il);
+    l->y[to + i] = (REAL)((p->x[3 * i + 1] - s->origin[1]) * il);
+    l->z[to + i] = (REAL)((p->x[3 * i + 2] - s->origin[2]) * il);
+    l->m[to + i] = (REAL)(p->m[i] * im);
+    l->h[to + i] = p->h ? (REAL)(0.5 * p->h[i] * il) : 0;
+  }
+  l->n += e - b;
+}
+
+/* Adds the field of all nodes of the list at (x, y, z) to f: acceleration and potential for G = 1.
+ */
+INLINE void NAME(from_nodes)(const NAME(List) * l, REAL x, REAL y, REAL z, int potential, REAL f[4])
+{
+  const REAL *restrict px = l->x, *restrict py = l->y, *restrict pz = l->z, *restrict pm = l->m;
+  const REAL *restrict q0 = l->q[0], *restrict q1 = l->q[1], *restrict q2 = l->q[2];
+  const REAL *restrict q3 = l->q[3], *restrict q4 = l->q[4], *restrict q5 = l->q[5];
+  const long n = l->n & ~(PAD - 1L);
+  REAL ax = 0, ay = 0, az = 0, phi = 0;
+#pragma omp simd reduction(+ : ax, ay, az, phi)
+  for (long j = 0; j < n; j++) {
+    REAL dx = x - px[j], dy = y - py[j], dz = z - pz[j];
+    REAL i1 = 1 / NAME(root)(dx * dx + dy * dy + dz * dz), i2 = i1 * i1;
+    dx *= i1, dy *= i1, dz *= i1; /* unit vector: its powers neither overflow nor vanish */
+    REAL qx = q0[j] * dx + q1[j] * dy + q2[j] * dz;
+    REAL qy = q1[j] * dx + q3[j] * dy + q4[j] * dz;
+    REAL qz = q2[j] * dx + q4[j] * dy + q5[j] * dz;
+    REAL qq = (qx * dx + qy * dy + qz * dz) * i2, c = pm[j] + (REAL)2.5 * qq;
+    ax += (qx * i2 - c * dx) * i2;
+    ay += (qy * i2 - c * dy) * i2;
+    az += (qz * i2 - c * dz) * i2;
+    if (potential) phi -= (pm[j] + (REAL)0.5 * qq) * i1;
+  }
+  f[0] += ax, f[1] += ay, f[2] += az, f[3] += phi;
+}
+
+/* The same for particles; h: half the target's support. near: pairs with s below it do not act. */
+INLINE void NAME(from_particles)(const NAME(List) * l, REAL x, REAL y, REAL z, REAL h, REAL near,
+                                 int potential, REAL f[4])
+{
+  const REAL *restrict px = l->x, *restrict py = l->y, *restrict pz = l->z, *restrict pm = l->m,
+                       *restrict ph = l->h;
+  const long n = l->n & ~(PAD - 1L);
+  REAL ax = 0, ay = 0, az = 0, phi = 0;
+#pragma omp simd reduction(+ : ax, ay, az, phi)
+  for (long j = 0; j < n; j++) {
+    REAL dx = x - px[j], dy = y - py[j], dz = z - pz[j], hij = h + ph[j];
+    REAL r = NAME(root)(dx * dx + dy * dy + dz * dz), s = r > hij ? r : hij;
+    REAL mi = s > near ? pm[j] : 0, i1 = 1 / (s > near ? s : 1), q = r * i1;
+    REAL c = mi * i1 * i1 * i1 * SOFT_FORCE(q);
+    ax -= c * dx, ay -= c * dy, az -= c * dz;
+    if (potential) phi -= mi * i1 * SOFT_POTENTIAL(q);
+  }
+  f[0] += ax, f[1] += ay, f[2] += az, f[3] += phi;
+}
+
+/* The field at particles b .. e-1 from both lists; self: where particle b stands in the list of
+ * particles. */
+static void NAME(evaluate)(const Scale *s, const Bodies *p, long b, long e,
+                           const NAME(List) * nodes, NAME(List) * parts, long self)
+{
+  const double il = 1 / s->length, ga = s->G * s->mass * il * il, gp = s->G * s->mass * il;
+  for (long i = b; i < e; i++) {
+    const long k = self + i - b;
+    const REAL x = parts->x[k], y = parts->y[k], z = parts->z[k], h = parts->h[k], m = parts->m[k];
+    REAL f[4] = {0}, g[4] = {0};
+    parts->m[k] = 0; /* not on itself */
+    if (p->phi) {
+      NAME(from_nodes)(nodes, x, y, z, 1, f);
+      NAME(from_particles)(parts, x, y, z, h, (REAL)s->near, 1, g);
+      p->phi[i] = gp * ((double)f[3] + (double)g[3]);
+    } else {
+      NAME(from_nodes)(nodes, x, y, z, 0, f);
+      NAME(from_particles)(parts, x, y, z, h, (REAL)s->near, 0, g);
+    }
+    parts->m[k] = m;
+    for (int d = 0; d < 3; d++) p->a[3 * i + d] = ga * ((double)f[d] + (double)g[d]);
+  }
+}
+
+/* One group: lists relative to its centre, then the sums. */
+static int NAME(group)(const Scale *tree, const Bodies *p, const Tree *t, const TreeGroup *g,
+                       const Walk *w, NAME(List) * nodes, NAME(List) * parts)
+{
+  Scale s = *tree;
+  long self = -1;
+  for (int d = 0; d < 3; d++) s.origin[d] = 0.5 * (g->lo[d] + g->hi[d]);
+  if (NAME(reserve)(nodes, w->accepted) || NAME(reserve)(parts, w->particles)) return -1;
+  NAME(pack_nodes)(nodes, &s, t->node, w->accept, w->accepted);
+  parts->n = 0;
+  for (long k = 0; k < w->opened; k++) {
+    const TreeNode *leaf = t->node + w->open[k];
+    if (leaf->first <= g->first && g->first < leaf->first + leaf->count)
+      self = parts->n + g->first - leaf->first;
+    NAME(pack_particles)(parts, &s, p, leaf->first, leaf->first + (long)leaf->count);
+  }
+  NAME(pad)(parts);
+  NAME(evaluate)(&s, p, g->first, g->first + (long)g->count, nodes, parts, self);
+  return 0;
+}

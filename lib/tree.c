@@ -1,0 +1,314 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Hilbert keys by Skilling (2004), AIP Conf. Proc. 707, 381, for a block of particles at a time, so
+ * that the loops over the block are vectors. A node is a range of equal leading key digits; its
+ * children follow from the first keys with another digit. Moments go up from the leaves. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "tree.h"
+
+enum { BLOCK = 256 };
+static const double FAR = 1e150; /* squares of coordinates must stay finite */
+
+typedef struct {
+  double lo[3], edge;
+} Cube;
+
+typedef struct {
+  uint64_t key;
+  int64_t id;
+  long i;
+} Item;
+
+static uint64_t spread(uint64_t v) /* puts two zeros between the 21 bits */
+{
+  v = (v | v << 32) & 0x1f00000000ffff;
+  v = (v | v << 16) & 0x1f0000ff0000ff;
+  v = (v | v << 8) & 0x100f00f00f00f00f;
+  v = (v | v << 4) & 0x10c30c30c30c30c3;
+  return (v | v << 2) & 0x1249249249249249;
+}
+
+static void hilbert_block(uint32_t c[3][BLOCK], int n, uint64_t *key)
+{
+  for (uint32_t bit = 1u << (TREE_LEVELS - 1); bit > 1; bit >>= 1)
+    for (int d = 0; d < 3; d++)
+      for (int k = 0; k < n; k++) {
+        uint32_t set = c[d][k] & bit ? bit - 1 : 0, t = (c[0][k] ^ c[d][k]) & (bit - 1) & ~set;
+        c[d][k] ^= t;
+        c[0][k] ^= (d ? t : 0) | set;
+      }
+  for (int k = 0; k < n; k++) {
+    uint32_t a = c[0][k], b = c[1][k] ^ a, g = c[2][k] ^ b, t = g;
+    for (int s = 1; s < 32; s *= 2) t ^= t >> s;
+    t >>= 1;
+    key[k] = spread(a ^ t) << 2 | spread(b ^ t) << 1 | spread(g ^ t);
+  }
+}
+
+static void hilbert_keys(const Cube *cube, long n, const double *x, uint64_t *key)
+{
+  const double cells = 1 << TREE_LEVELS, scale = cells / cube->edge;
+#pragma omp parallel for schedule(static)
+  for (long b = 0; b < n; b += BLOCK) {
+    uint32_t c[3][BLOCK];
+    int m = (int)(n - b < BLOCK ? n - b : BLOCK);
+    for (int d = 0; d < 3; d++)
+      for (int k = 0; k < m; k++) {
+        double s = (x[3 * (b + k) + d] - cube->lo[d]) * scale;
+        c[d][k] = (uint32_t)(int32_t)(s < cells - 1 ? s : cells - 1);
+      }
+    hilbert_block(c, m, key + b);
+  }
+}
+
+/* The smallest cube from the lowest corner on that holds all; -1 - k when the k-th coordinate is
+ * bad. */
+static long find_cube(long n, const double *x, Cube *cube)
+{
+  double x0 = FAR, y0 = FAR, z0 = FAR, x1 = -FAR, y1 = -FAR, z1 = -FAR;
+  long bad = 3 * n;
+#pragma omp parallel for reduction(min : x0, y0, z0, bad) reduction(max : x1, y1, z1)
+  for (long i = 0; i < n; i++) {
+    const double *p = x + 3 * i;
+    x0 = fmin(x0, p[0]), x1 = fmax(x1, p[0]);
+    y0 = fmin(y0, p[1]), y1 = fmax(y1, p[1]);
+    z0 = fmin(z0, p[2]), z1 = fmax(z1, p[2]);
+    for (int d = 0; d < 3; d++)
+      if (!(fabs(p[d]) < FAR) && 3 * i + d < bad) bad = 3 * i + d;
+  }
+  *cube = (Cube){{x0, y0, z0}, fmax(fmax(x1 - x0, y1 - y0), z1 - z0)};
+  if (cube->edge < 1e-290) cube->edge = 1; /* coincident as far as arithmetic goes */
+  return bad < 3 * n ? -1 - bad : 0;
+}
+
+static int compare(const void *a, const void *b)
+{
+  const Item *s = a, *t = b;
+  if (s->key != t->key) return s->key < t->key ? -1 : 1;
+  return (s->id > t->id) - (s->id < t->id);
+}
+
+int tree_order(long n, const double *x, const int64_t *id, long *order, Err *err)
+{
+  Cube cube;
+  long bad = find_cube(n, x, &cube);
+  if (bad) {
+    bad = -1 - bad;
+    return err_set(err, "particle %lld: coordinate %g is out of range",
+                   (long long)(id ? id[bad / 3] : bad / 3), x[bad]);
+  }
+  uint64_t *key = malloc((size_t)n * sizeof *key + 1);
+  Item *item = malloc((size_t)n * sizeof *item + 1);
+  if (!key || !item) {
+    free(key), free(item);
+    return err_set(err, "cannot sort %ld particles: no memory", n);
+  }
+  hilbert_keys(&cube, n, x, key);
+  for (long i = 0; i < n; i++) item[i] = (Item){key[i], id ? id[i] : i, i};
+  qsort(item, (size_t)n, sizeof *item, compare);
+  for (long i = 0; i < n; i++) order[i] = item[i].i;
+  free(key), free(item);
+  return 0;
+}
+
+static int new_node(Tree *t)
+{
+  if (t->nodes == t->node_room) {
+    int32_t room = t->node_room + t->node_room / 2 + 64;
+    TreeNode *node = realloc(t->node, (size_t)room * sizeof *node);
+    if (!node) return -1;
+    t->node = node, t->node_room = room;
+  }
+  return t->nodes++;
+}
+
+static int new_group(Tree *t, int32_t first, int32_t count)
+{
+  if (t->groups == t->group_room) {
+    int32_t room = t->group_room + t->group_room / 2 + 64;
+    TreeGroup *group = realloc(t->group, (size_t)room * sizeof *group);
+    if (!group) return -1;
+    t->group = group, t->group_room = room;
+  }
+  t->group[t->groups++] = (TreeGroup){.first = first, .count = count};
+  return 0;
+}
+
+/* The first key in b .. e-1 that is larger than top: steps double, then halve. */
+static int32_t upper(const uint64_t *key, int32_t b, int32_t e, uint64_t top)
+{
+  int32_t step = 1;
+  while (b + step < e && key[b + step] <= top) step *= 2;
+  for (; step; step /= 2)
+    if (b + step < e && key[b + step] <= top) b += step;
+  return b + 1;
+}
+
+/* The subtree of particles b .. e-1, whose keys agree in the first `level` digits. */
+static int grow(Tree *t, int32_t b, int32_t e, int level)
+{
+  const uint64_t *key = t->key;
+  while (level < TREE_LEVELS && !((key[b] ^ key[e - 1]) >> 3 * (TREE_LEVELS - 1 - level))) level++;
+  int me = new_node(t), leaf = e - b <= TREE_BUCKET || level == TREE_LEVELS;
+  if (me < 0) return -1;
+  t->node[me] =
+      (TreeNode){.first = b, .count = e - b, .leaf = (int16_t)leaf, .level = (int16_t)level};
+  while (!leaf && b < e) {
+    uint64_t rest = ((uint64_t)1 << 3 * (TREE_LEVELS - 1 - level)) - 1;
+    int32_t end = upper(key, b, e, key[b] | rest);
+    if (grow(t, b, end, level + 1)) return -1;
+    b = end;
+  }
+  t->node[me].skip = t->nodes;
+  return 0;
+}
+
+/* Groups: consecutive children of one node are taken together while they are at most TREE_GROUP; so
+ * no group reaches beyond the smallest cell that holds more. Leaves that are too large are cut. */
+static int make_groups(Tree *t, int32_t parent)
+{
+  const int32_t end = t->node[parent].skip;
+  int32_t first = t->node[parent].first, count = 0;
+  for (int32_t c = parent + 1; c < end; c = t->node[c].skip) {
+    int32_t more = t->node[c].count;
+    if (count && count + more > TREE_GROUP) {
+      if (new_group(t, first, count)) return -1;
+      first += count, count = 0;
+    }
+    if (more <= TREE_GROUP) {
+      count += more;
+    } else {
+      if (make_groups(t, c)) return -1;
+      first += more;
+    }
+  }
+  if (t->node[parent].leaf) count = t->node[parent].count;
+  for (; count > TREE_GROUP; first += TREE_GROUP, count -= TREE_GROUP)
+    if (new_group(t, first, TREE_GROUP)) return -1;
+  return count ? new_group(t, first, count) : 0;
+}
+
+static void box_empty(double lo[3], double hi[3])
+{
+  for (int d = 0; d < 3; d++) lo[d] = FAR, hi[d] = -FAR;
+}
+
+static void box_add(double lo[3], double hi[3], const double a[3], const double b[3])
+{
+  for (int d = 0; d < 3; d++) {
+    lo[d] = lo[d] < a[d] ? lo[d] : a[d];
+    hi[d] = hi[d] > b[d] ? hi[d] : b[d];
+  }
+}
+
+/* Adds m (3 r r - r^2 1). */
+static void add_quadrupole(double q[6], double m, double x, double y, double z)
+{
+  double r2 = x * x + y * y + z * z;
+  q[0] += m * (3 * x * x - r2), q[1] += m * 3 * x * y, q[2] += m * 3 * x * z;
+  q[3] += m * (3 * y * y - r2), q[4] += m * 3 * y * z, q[5] += m * (3 * z * z - r2);
+}
+
+static void set_com(TreeNode *p, const double sum[3])
+{
+  for (int d = 0; d < 3; d++)
+    p->com[d] = p->mass > 0 ? sum[d] / p->mass : 0.5 * (p->lo[d] + p->hi[d]);
+}
+
+static void sum_leaf(TreeNode *p, const double *x, const double *m, const double *h)
+{
+  const long b = p->first, e = b + p->count;
+  double s[3] = {0};
+  box_empty(p->lo, p->hi);
+  p->mass = p->hmax = 0;
+  for (long i = b; i < e; i++) {
+    box_add(p->lo, p->hi, x + 3 * i, x + 3 * i);
+    if (h && h[i] > p->hmax) p->hmax = h[i];
+    if (m) p->mass += m[i];
+    for (int d = 0; m && d < 3; d++) s[d] += m[i] * x[3 * i + d];
+  }
+  set_com(p, s);
+  memset(p->q, 0, sizeof p->q);
+  for (long i = b; m && i < e; i++)
+    add_quadrupole(p->q, m[i], x[3 * i] - p->com[0], x[3 * i + 1] - p->com[1],
+                   x[3 * i + 2] - p->com[2]);
+}
+
+static void sum_children(TreeNode *node, int32_t me)
+{
+  TreeNode *p = node + me;
+  double s[3] = {0};
+  box_empty(p->lo, p->hi);
+  p->mass = p->hmax = 0;
+  for (int32_t c = me + 1; c < p->skip; c = node[c].skip) {
+    box_add(p->lo, p->hi, node[c].lo, node[c].hi);
+    if (node[c].hmax > p->hmax) p->hmax = node[c].hmax;
+    p->mass += node[c].mass;
+    for (int d = 0; d < 3; d++) s[d] += node[c].mass * node[c].com[d];
+  }
+  set_com(p, s);
+  memset(p->q, 0, sizeof p->q);
+  for (int32_t c = me + 1; c < p->skip; c = node[c].skip) {
+    for (int k = 0; k < 6; k++) p->q[k] += node[c].q[k];
+    add_quadrupole(p->q, node[c].mass, node[c].com[0] - p->com[0], node[c].com[1] - p->com[1],
+                   node[c].com[2] - p->com[2]);
+  }
+}
+
+static void set_size(const Tree *t, TreeNode *p)
+{
+  p->size = ldexp(t->edge, -p->level);
+  for (int d = 0; d < 3; d++) p->size = fmax(p->size, p->hi[d] - p->lo[d]);
+}
+
+void tree_refit(Tree *t, const double *x, const double *m, const double *h)
+{
+#pragma omp parallel for schedule(static, 64)
+  for (int32_t k = 0; k < t->nodes; k++)
+    if (t->node[k].leaf) sum_leaf(t->node + k, x, m, h), set_size(t, t->node + k);
+  for (int32_t k = t->nodes; k-- > 0;)
+    if (!t->node[k].leaf) sum_children(t->node, k), set_size(t, t->node + k);
+#pragma omp parallel for schedule(static, 64)
+  for (int32_t k = 0; k < t->groups; k++) {
+    TreeGroup *g = t->group + k;
+    box_empty(g->lo, g->hi);
+    g->hmax = 0;
+    for (long i = g->first; i < g->first + (long)g->count; i++) {
+      box_add(g->lo, g->hi, x + 3 * i, x + 3 * i);
+      if (h && h[i] > g->hmax) g->hmax = h[i];
+    }
+  }
+}
+
+int tree_build(Tree *t, long n, const double *x, const double *m, const double *h, Err *err)
+{
+  Cube cube;
+  if (n < 1 || n > INT32_MAX / 2) return err_set(err, "cannot build a tree of %ld particles", n);
+  long bad = find_cube(n, x, &cube);
+  if (bad)
+    return err_set(err, "particle number %ld: coordinate %g is out of range", (-1 - bad) / 3,
+                   x[-1 - bad]);
+  memcpy(t->origin, cube.lo, sizeof t->origin);
+  t->edge = cube.edge, t->n = n, t->nodes = t->groups = 0;
+  if (n > t->key_room) {
+    free(t->key);
+    t->key = malloc((size_t)n * sizeof *t->key);
+    t->key_room = t->key ? n : 0;
+  }
+  if (!t->key) return err_set(err, "cannot build a tree of %ld particles: no memory", n);
+  hilbert_keys(&cube, n, x, t->key);
+  for (long i = 1; i < n; i++)
+    if (t->key[i - 1] > t->key[i])
+      return err_set(err, "cannot build a tree: particle number %ld is not in Hilbert order", i);
+  if (grow(t, 0, (int32_t)n, 0) || make_groups(t, 0))
+    return err_set(err, "cannot build a tree of %ld particles: no memory", n);
+  tree_refit(t, x, m, h);
+  return 0;
+}
+
+void tree_free(Tree *t)
+{
+  free(t->node), free(t->group), free(t->key);
+  *t = (Tree){0};
+}
