@@ -186,6 +186,8 @@ static void set_and_text(void **state)
   assert_int_equal(cfg_set(ROWS, N(ROWS), &run, "rho", "1", &err), -1);
   assert_string_equal(err.text, "unknown key 'rho' (did you mean 'rho0'?)");
   assert_int_equal(cfg_set(ROWS, N(ROWS), &run, "rho0", "0", &err), -1);
+  assert_int_equal(cfg_set(ROWS, N(ROWS), &run, "k", "0.1", &err), 0);
+  assert_string_equal(cfg_text(&ROWS[1], &run, text, sizeof text), "0.1");
   for (int k = 1; k < 1000; k++) {
     double x = exp(0.1 * k) / 3;
     run.k = x;
