@@ -36,7 +36,9 @@
   F(double,  dudt,   1, "EnergyRate",       "W/kg",     "solver",   "du/dt of the last force loop") \
   F(double,  dqdt,   1, "ViscousHeating",   "W/kg",     "solver",   "viscous part of du/dt") \
   F(double,  divv,   1, "VelocityDivergence", "1/s",    "solver",   "divergence of the velocity, uncorrected sum") \
-  F(double,  delta,  1, "NumberDensity",    "1/m^3",    "solver",   "kernel sum over neighbours (miscible density)")
+  F(double,  delta,  1, "NumberDensity",    "1/m^3",    "solver",   "kernel sum over neighbours (miscible density)") \
+  F(double,  signal, 1, "SignalSpeed",      "m/s",      "solver",   "largest signal velocity to a neighbour") \
+  F(double,  dcrack, 1, "CrackRate",        "1/s",      "solver",   "rate of the cube root of damage")
 
 #define ALL_FIELDS(F) FIELDS(F) CHECKPOINT_FIELDS(F)
 /* clang-format on */

@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A backend: a machine that holds the state and runs the passes. What is physics is in physics/ and
+ * passes.h and is shared; what traverses (sort, tree, search, pair loops, gravity walk, reductions)
+ * is written once per machine behind this struct. Run loop and integrators see nothing else. */
+#ifndef BACKEND_H
+#define BACKEND_H
+
+#include "passes.h"
+#include "param.h"
+
+/* Sums over all particles in a fixed order, independent of threads. SI; energies in J. */
+typedef struct {
+  double mass, kinetic, internal, potential;
+  double momentum[3], angular[3], centre[3]; /* kg m/s, kg m^2/s, m */
+  double scale_momentum, scale_angular; /* sum m |v|, sum m |r x v|: what drifts are measured by */
+} Sums;
+
+/* The smallest of each time-step criterion, the particle that has it, and the first particle in a
+ * bad state. */
+typedef struct {
+  double dt[LIMITS];
+  int64_t id[LIMITS];
+  int64_t bad;    /* id of a particle that is not finite or not positive, or -1 */
+  int bad_reason; /* enum bad */
+} Limits;
+
+typedef struct {
+  double start, spent; /* s */
+  long calls;
+  const char *name;
+} BackendTimer;
+
+enum {
+  TIMER_ORDER,
+  TIMER_SEARCH,
+  TIMER_A,
+  TIMER_LOCAL,
+  TIMER_DENSITY,
+  TIMER_B,
+  TIMER_GRAVITY,
+  TIMER_REDUCE,
+  TIMERS
+};
+
+typedef struct Sim Sim;
+
+struct backend {
+  const char *name;
+  /* open: takes the particles over (they keep their row order in every file). close: frees all. */
+  int (*open)(Sim *sim, const Parts *parts, Err *err);
+  void (*close)(Sim *sim);
+  /* store: the present state into parts (same n and row order as at open). */
+  int (*store)(Sim *sim, Parts *parts, Err *err);
+  /* search: orders the particles, builds the tree at x and the neighbour lists for x and for y. */
+  int (*search)(Sim *sim, Err *err);
+  /* pass: one of passes.h over all particles. */
+  void (*pass)(Sim *sim, int pass, const Step *step);
+  /* gradient: loop A at y with v and volumes m/rhoa: divv and (solids) g. density: kernel sums at
+   * x: rho, delta. force: loop B at x with vp: acc, du, dq, signal, nngb. gravity: adds to acc,
+   * sets phi. */
+  void (*gradient)(Sim *sim);
+  void (*density)(Sim *sim);
+  void (*force)(Sim *sim);
+  int (*gravity)(Sim *sim, Err *err);
+  /* limits, sums: reductions. bodies: mass, centre, velocity and spin of each body id below BODIES,
+   * for damping. */
+  void (*limits)(Sim *sim, const Step *step, Limits *out);
+  void (*sums)(Sim *sim, Sums *out);
+  void (*bodies)(Sim *sim, Step *step);
+  /* look: the state of one particle as text, for error messages; max_error: largest error of
+   * rk2-adaptive over its tolerance. */
+  void (*look)(Sim *sim, int64_t id, char *text, int size);
+  double (*error)(Sim *sim, const Step *step);
+};
+
+extern const struct backend backend_cpu;
+
+struct Sim {
+  const struct backend *b;
+  Param par;
+  Material *material; /* [materials], host */
+  int materials;
+  int solid;    /* any material with a shear modulus, and strength on */
+  int miscible; /* the number-density form */
+  State s;
+  void *own;       /* the backend's */
+  double time, dt; /* s; dt: the next step as the criteria allow */
+  long step;
+  int slots; /* saved states that the integrator needs */
+  BackendTimer timer[TIMERS];
+};
+
+/* backend_begin, backend_end: bracket a pass for --profile. */
+void backend_begin(Sim *sim, int timer);
+void backend_end(Sim *sim, int timer);
+
+#endif

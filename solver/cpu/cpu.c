@@ -1,0 +1,223 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The CPU backend: memory, order, and the stamps of the per-particle passes. The pair loops are in
+ * loops.c, the reductions in reduce.c; tree, search and gravity are the library's. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include "cpu.h"
+
+/* alloc: the arrays of the state, zeroed; -1 for lack of memory. */
+static int alloc_state(State *s, int slots)
+{
+  size_t n = (size_t)s->n;
+  int bad = 0;
+#define CPU_ALLOC(TYPE, MEMBER, WIDTH, ...)                                                        \
+  bad |= !(s->MEMBER = calloc(n ? n * (WIDTH) : 1, sizeof(TYPE)));
+  ALL_FIELDS(CPU_ALLOC)
+  MOVED_FIELDS(CPU_ALLOC)
+  WORK_FIELDS(CPU_ALLOC)
+#undef CPU_ALLOC
+  for (int k = 0; k < slots; k++) {
+#define CPU_SLOT(MEMBER, WIDTH)                                                                    \
+  bad |= !(s->saved[k].MEMBER = calloc(n ? n * (WIDTH) : 1, sizeof(double)));
+    SAVED_FIELDS(CPU_SLOT)
+#undef CPU_SLOT
+  }
+  return bad ? -1 : 0;
+}
+
+static void free_state(State *s)
+{
+#define CPU_FREE(TYPE, MEMBER, ...) free(s->MEMBER);
+  ALL_FIELDS(CPU_FREE)
+  MOVED_FIELDS(CPU_FREE)
+  WORK_FIELDS(CPU_FREE)
+#undef CPU_FREE
+  for (int k = 0; k < STATE_SLOTS; k++) {
+#define CPU_FREE_SLOT(MEMBER, WIDTH) free(s->saved[k].MEMBER);
+    SAVED_FIELDS(CPU_FREE_SLOT)
+#undef CPU_FREE_SLOT
+  }
+}
+
+/* The particles' own data into the state; what the file lacks stays zero. */
+static int fill(Sim *sim, const Parts *p, Err *err)
+{
+  State *s = &sim->s;
+  Cpu *c = sim->own;
+  size_t n = (size_t)s->n;
+  int64_t at = 0;
+#define CPU_COPY(TYPE, MEMBER, WIDTH, ...)                                                         \
+  if (p->MEMBER) memcpy(s->MEMBER, p->MEMBER, n *(WIDTH) * sizeof(TYPE));
+  ALL_FIELDS(CPU_COPY)
+#undef CPU_COPY
+  for (long i = 0; i < s->n; i++) {
+    s->row[i] = i;
+    s->flaw0[i] = at;
+    s->nflaw[i] = p->nflaw ? p->nflaw[i] : 0;
+    at += s->nflaw[i];
+  }
+  c->flaw = malloc(sizeof(double) * (size_t)(at ? at : 1));
+  if (!c->flaw) return err_set(err, "not enough memory for %lld flaws", (long long)at);
+  if (at) memcpy(c->flaw, p->flaw, sizeof(double) * (size_t)at);
+  s->flaw = c->flaw;
+  return 0;
+}
+
+static void cpu_close(Sim *sim)
+{
+  Cpu *c = sim->own;
+  if (!c) return;
+  tree_free(&c->tree);
+  ngb_free(&c->ngb);
+  free(c->order), free(c->record), free(c->pull), free(c->scratch), free(c->flaw);
+  free(c);
+  sim->own = NULL;
+  free_state(&sim->s);
+  memset(&sim->s, 0, sizeof sim->s);
+}
+
+static int cpu_open(Sim *sim, const Parts *p, Err *err)
+{
+  Cpu *c = calloc(1, sizeof *c);
+  size_t n = (size_t)p->n;
+  if (!c) return err_set(err, "not enough memory");
+  sim->own = c;
+  memset(&sim->s, 0, sizeof sim->s);
+  sim->s.n = p->n;
+  sim->s.dimension = p->dimension;
+  sim->s.material = sim->material;
+  c->order = malloc((n + 1) * sizeof *c->order);
+  c->record = malloc((n + 1) * sizeof(PairBody));
+  c->pull = malloc((n + 1) * 3 * sizeof(double));
+  c->scratch = malloc((n + 1) * 9 * sizeof(double));
+  c->run.sigma = kernel_sigma(sim->par.kernel, p->dimension);
+  c->run.alpha = sim->par.alpha, c->run.beta = sim->par.beta, c->run.dimension = p->dimension;
+  if (!c->order || !c->record || !c->pull || !c->scratch || alloc_state(&sim->s, sim->slots)) {
+    cpu_close(sim);
+    return err_set(err, "not enough memory for %ld particles", p->n);
+  }
+  if (fill(sim, p, err)) return cpu_close(sim), -1;
+  return 0;
+}
+
+static int cpu_store(Sim *sim, Parts *p, Err *err)
+{
+  const State *s = &sim->s;
+  if (part_add(p,
+               "id x v m rho u h mat body p cs s damage nact phi pmax strain nngb a dudt dqdt divv "
+               "delta",
+               err))
+    return -1;
+#define CPU_STORE(TYPE, MEMBER, WIDTH, ...)                                                        \
+  for (long i = 0; p->MEMBER && i < s->n; i++)                                                     \
+    memcpy(p->MEMBER + s->row[i] * (WIDTH), s->MEMBER + i * (WIDTH), sizeof(TYPE) * (WIDTH));
+  ALL_FIELDS(CPU_STORE)
+#undef CPU_STORE
+  return 0;
+}
+
+/* One array into the new order. */
+static void reorder(const Cpu *c, void *array, size_t size, long n)
+{
+  char *to = c->scratch, *from = array;
+#pragma omp parallel for schedule(static)
+  for (long k = 0; k < n; k++)
+    memcpy(to + (size_t)k * size, from + (size_t)c->order[k] * size, size);
+#pragma omp parallel for schedule(static)
+  for (long k = 0; k < n; k++) memcpy(from + (size_t)k * size, to + (size_t)k * size, size);
+}
+
+static void reorder_all(Sim *sim)
+{
+  const State *s = &sim->s;
+  const Cpu *c = sim->own;
+  long k = 0;
+  while (k < s->n && c->order[k] == k) k++;
+  if (k == s->n) return;
+#define CPU_MOVE(TYPE, MEMBER, WIDTH, ...) reorder(c, s->MEMBER, sizeof(TYPE) * (WIDTH), s->n);
+  ALL_FIELDS(CPU_MOVE)
+  MOVED_FIELDS(CPU_MOVE)
+#undef CPU_MOVE
+  for (int slot = 0; slot < sim->slots; slot++) {
+#define CPU_MOVE_SLOT(MEMBER, WIDTH)                                                               \
+  reorder(c, s->saved[slot].MEMBER, sizeof(double) * (WIDTH), s->n);
+    SAVED_FIELDS(CPU_MOVE_SLOT)
+#undef CPU_MOVE_SLOT
+  }
+}
+
+static int cpu_search(Sim *sim, Err *err)
+{
+  Cpu *c = sim->own;
+  State *s = &sim->s;
+  int bad;
+  backend_begin(sim, TIMER_ORDER);
+  bad = tree_order(s->n, s->x, s->id, c->order, err);
+  if (!bad) reorder_all(sim);
+  bad = bad || tree_build(&c->tree, s->n, s->x, s->m, s->h, err);
+  backend_end(sim, TIMER_ORDER);
+  if (bad) return -1;
+  backend_begin(sim, TIMER_SEARCH);
+  bad = ngb_search(&c->ngb, &c->tree, s->x, s->y, s->h, 1, err);
+  backend_end(sim, TIMER_SEARCH);
+  return bad;
+}
+
+static int cpu_gravity(Sim *sim, Err *err)
+{
+  Cpu *c = sim->own;
+  const State *s = &sim->s;
+  GravityOptions o = {sim->par.theta, sim->par.G, sim->par.precision == PARAM_MIXED};
+  int bad;
+  if (sim->par.gravity == PARAM_NONE) return 0;
+  backend_begin(sim, TIMER_GRAVITY);
+  if (sim->par.gravity == PARAM_TREE)
+    bad = gravity_tree(&c->tree, s->x, s->m, s->h, &o, c->pull, s->phi, err);
+  else
+    bad = gravity_direct(s->n, s->x, s->m, s->h, o.G, c->pull, s->phi, err);
+  if (!bad)
+    for (long i = 0; i < 3 * s->n; i++) s->acc[i] += c->pull[i];
+  backend_end(sim, TIMER_GRAVITY);
+  return bad;
+}
+
+/* The stamps of the per-particle passes. */
+static void cpu_pass(Sim *sim, int pass, const Step *step)
+{
+  const State *s = &sim->s;
+  backend_begin(sim, TIMER_LOCAL);
+  switch (pass) {
+#define CPU_PASS(CAPITAL, NAME)                                                                    \
+  case PASS_##CAPITAL:                                                                             \
+    _Pragma("omp parallel for schedule(static)") for (long i = 0; i < s->n; i++)                   \
+        pass_##NAME(s, step, i);                                                                   \
+    break;
+    PASSES(CPU_PASS)
+#undef CPU_PASS
+  default: break;
+  }
+  backend_end(sim, TIMER_LOCAL);
+}
+
+static void cpu_look(Sim *sim, int64_t id, char *text, int size)
+{
+  const State *s = &sim->s;
+  long i = 0;
+  while (i < s->n && s->id[i] != id) i++;
+  if (i == s->n) {
+    snprintf(text, (size_t)size, "no particle %lld", (long long)id);
+    return;
+  }
+  snprintf(text, (size_t)size,
+           "particle %lld of body %d at (%.6g %.6g %.6g) m, v (%.6g %.6g %.6g) m/s, rho %.6g "
+           "kg/m^3, u %.6g J/kg, p %.6g Pa, "
+           "h %.6g m, damage %.3g, %d neighbours",
+           (long long)id, (int)s->body[i], s->x[3 * i], s->x[3 * i + 1], s->x[3 * i + 2],
+           s->v[3 * i], s->v[3 * i + 1], s->v[3 * i + 2], s->rho[i], s->u[i], s->p[i], s->h[i],
+           s->damage[i], (int)s->nngb[i]);
+}
+
+const struct backend backend_cpu = {"cpu",      cpu_open,     cpu_close,   cpu_store, cpu_search,
+                                    cpu_pass,   cpu_gradient, cpu_density, cpu_force, cpu_gravity,
+                                    cpu_limits, cpu_sums,     cpu_bodies,  cpu_look,  cpu_error};

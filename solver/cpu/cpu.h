@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The CPU backend's own data, shared by its files. OpenMP everywhere; no result depends on the
+ * number of threads. */
+#ifndef CPU_H
+#define CPU_H
+
+#include "../backend.h"
+#include "../../lib/gravity.h"
+#include "../../lib/ngb.h"
+#include "../../lib/tree.h"
+
+typedef struct {
+  Tree tree;
+  Ngb ngb;
+  PairRun run;
+  long *order;    /* [n] */
+  double *record; /* [n][18] packed records of the loop at hand */
+  double *pull;   /* [n][3] gravity */
+  void *scratch;  /* [n][9] doubles, for reordering */
+  double *flaw;   /* all thresholds */
+  Parts *parts;   /* what files hold besides the arrays (not owned) */
+} Cpu;
+
+void cpu_gradient(Sim *sim);
+void cpu_force(Sim *sim);
+void cpu_density(Sim *sim);
+void cpu_limits(Sim *sim, const Step *step, Limits *out);
+void cpu_sums(Sim *sim, Sums *out);
+void cpu_bodies(Sim *sim, Step *step);
+double cpu_error(Sim *sim, const Step *step);
+
+#endif

@@ -1,0 +1,260 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The pair loops on the host. For each particle the neighbours' records are packed into short
+ * arrays, one a member, over which the shared pair function is vectorised. Kernel, dimension class,
+ * solid and miscible are literals of the stamped loops. */
+#include <stdlib.h>
+#include "cpu.h"
+
+enum { ROOM = 64 }; /* neighbours that a pack holds at first; it grows */
+
+/* Columns of doubles, one per member of a pair record. */
+typedef struct {
+  double *column; /* [columns][room] */
+  long room;
+} Pack;
+
+static double *pack_reserve(Pack *p, long n, int columns)
+{
+  if (n > p->room) {
+    p->room = n + ROOM;
+    free(p->column);
+    p->column = malloc(sizeof(double) * (size_t)p->room * (size_t)columns);
+    if (!p->column) abort(); /* a few kB */
+  }
+  return p->column;
+}
+
+static PairFlow flow_of(const State *s, long i)
+{
+  PairFlow f = {s->y[3 * i],     s->y[3 * i + 1], s->y[3 * i + 2], s->v[3 * i],
+                s->v[3 * i + 1], s->v[3 * i + 2], s->h[i],         s->m[i] / s->rhoa[i]};
+  return f;
+}
+
+static PairBody body_of(const State *s, long i)
+{
+  const double *x = &s->x[3 * i], *v = &s->vp[3 * i], *t = &s->t[6 * i];
+  PairBody b = {x[0],      x[1],     x[2],     v[0], v[1], v[2], s->h[i], s->m[i], 1 / s->m[i],
+                s->rho[i], s->cs[i], s->cl[i], t[0], t[1], t[2], t[3],    t[4],    t[5]};
+  return b;
+}
+
+enum { FLOW = sizeof(PairFlow) / sizeof(double), BODY = sizeof(PairBody) / sizeof(double) };
+
+/* The records of all particles, once per loop. */
+static void records(Sim *sim, int body)
+{
+  Cpu *c = sim->own;
+  const State *s = &sim->s;
+#pragma omp parallel for schedule(static)
+  for (long i = 0; i < s->n; i++) {
+    if (body)
+      ((PairBody *)c->record)[i] = body_of(s, i);
+    else
+      ((PairFlow *)c->record)[i] = flow_of(s, i);
+  }
+}
+
+/* Packs the records of the neighbours list[n] into columns. */
+static inline __attribute__((always_inline)) void
+pack(const double *record, int columns, const uint32_t *list, long n, double *to, long room)
+{
+  for (long k = 0; k < n; k++) {
+    const double *from = record + (size_t)list[k] * (size_t)columns;
+    for (int c = 0; c < columns; c++) to[c * room + k] = from[c];
+  }
+}
+
+static inline __attribute__((always_inline)) void gradient_of(const State *s, long i,
+                                                              const PairFlow *me, const double *p,
+                                                              long room, long n, int kern, int line,
+                                                              int solid, const PairRun *run)
+{
+  double gxx = 0, gxy = 0, gxz = 0, gyx = 0, gyy = 0, gyz = 0, gzx = 0, gzy = 0, gzz = 0;
+  double mxx = 0, mxy = 0, mxz = 0, myy = 0, myz = 0, mzz = 0;
+  PairFlow self = *me;
+#pragma omp simd reduction(+ : gxx, gxy, gxz, gyx, gyy, gyz, gzx, gzy, gzz, mxx, mxy, mxz, myy, myz, mzz)
+  for (long k = 0; k < n; k++) {
+    PairFlow j = {p[k],
+                  p[room + k],
+                  p[2 * room + k],
+                  p[3 * room + k],
+                  p[4 * room + k],
+                  p[5 * room + k],
+                  p[6 * room + k],
+                  p[7 * room + k]};
+    PairGradient o = pair_gradient(&self, &j, kern, line, solid, run);
+    gxx += o.gxx, gxy += o.gxy, gxz += o.gxz, gyx += o.gyx, gyy += o.gyy, gyz += o.gyz,
+        gzx += o.gzx, gzy += o.gzy, gzz += o.gzz;
+    mxx += o.mxx, mxy += o.mxy, mxz += o.mxz, myy += o.myy, myz += o.myz, mzz += o.mzz;
+  }
+  if (!solid) {
+    s->divv[i] = gxx;
+    return;
+  }
+  {
+    double raw[9] = {gxx, gxy, gxz, gyx, gyy, gyz, gzx, gzy, gzz};
+    double m[9] = {mxx, mxy, mxz, mxy, myy, myz, mxz, myz, mzz};
+    s->divv[i] = gxx + gyy + gzz;
+    pass_correct(raw, m, s->dimension, &s->g[9 * i]);
+  }
+}
+
+/* A whole loop A with literals. */
+static inline __attribute__((always_inline)) void gradient_loop(Sim *sim, int kern, int line,
+                                                                int solid)
+{
+  Cpu *c = sim->own;
+  const State *s = &sim->s;
+  const PairFlow *record = (const PairFlow *)c->record;
+#pragma omp parallel
+  {
+    Pack b = {NULL, 0};
+#pragma omp for schedule(dynamic, 256)
+    for (long i = 0; i < s->n; i++) {
+      long n = (long)(c->ngb.start[i + 1] - c->ngb.start[i]);
+      double *p = pack_reserve(&b, n, FLOW);
+      pack((const double *)record, FLOW, c->ngb.list + c->ngb.start[i], n, p, b.room);
+      gradient_of(s, i, &record[i], p, b.room, n, kern, line, solid, &c->run);
+    }
+    free(b.column);
+  }
+}
+
+static inline __attribute__((always_inline)) void
+force_of(const State *s, long i, const PairBody *me, const double *p, long room, long n, int kern,
+         int line, int solid, int miscible, const PairRun *run)
+{
+  double ax = 0, ay = 0, az = 0, du = 0, dq = 0, near = 0, signal = 2 * me->signal;
+  PairBody self = *me;
+#pragma omp simd reduction(+ : ax, ay, az, du, dq, near) reduction(max : signal)
+  for (long k = 0; k < n; k++) {
+    PairBody j = {p[k],
+                  p[room + k],
+                  p[2 * room + k],
+                  p[3 * room + k],
+                  p[4 * room + k],
+                  p[5 * room + k],
+                  p[6 * room + k],
+                  p[7 * room + k],
+                  p[8 * room + k],
+                  p[9 * room + k],
+                  p[10 * room + k],
+                  p[11 * room + k],
+                  p[12 * room + k],
+                  p[13 * room + k],
+                  p[14 * room + k],
+                  p[15 * room + k],
+                  p[16 * room + k],
+                  p[17 * room + k]};
+    PairForce o = pair_force(&self, &j, kern, line, solid, miscible, run);
+    ax += o.ax, ay += o.ay, az += o.az, du += o.du, dq += o.dq, near += o.near;
+    signal = o.signal > signal ? o.signal : signal;
+  }
+  s->acc[3 * i] = ax, s->acc[3 * i + 1] = ay, s->acc[3 * i + 2] = az;
+  s->du[i] = du, s->dq[i] = dq, s->signal[i] = signal, s->nngb[i] = (int32_t)near;
+}
+
+static inline __attribute__((always_inline)) void force_loop(Sim *sim, int kern, int line,
+                                                             int solid, int miscible)
+{
+  Cpu *c = sim->own;
+  const State *s = &sim->s;
+  const PairBody *record = (const PairBody *)c->record;
+#pragma omp parallel
+  {
+    Pack b = {NULL, 0};
+#pragma omp for schedule(dynamic, 256)
+    for (long i = 0; i < s->n; i++) {
+      long n = (long)(c->ngb.start[i + 1] - c->ngb.start[i]);
+      double *p = pack_reserve(&b, n, BODY);
+      pack((const double *)record, BODY, c->ngb.list + c->ngb.start[i], n, p, b.room);
+      force_of(s, i, &record[i], p, b.room, n, kern, line, solid, miscible, &c->run);
+    }
+    free(b.column);
+  }
+}
+
+/* Kernel sums at x: rho = sum m W and delta = sum W, the particle itself included (001 eq. 28, 004
+ * eq. 2.48-2.49). */
+static inline __attribute__((always_inline)) void density_loop(Sim *sim, int kern, int line,
+                                                               int miscible)
+{
+  Cpu *c = sim->own;
+  const State *s = &sim->s;
+#pragma omp parallel for schedule(dynamic, 256)
+  for (long i = 0; i < s->n; i++) {
+    double w = pair_weight(kern, line, &c->run, 0, s->h[i]), delta = w, rho = s->m[i] * w;
+    for (int64_t k = c->ngb.start[i]; k < c->ngb.start[i + 1]; k++) {
+      long j = c->ngb.list[k];
+      double x = s->x[3 * i] - s->x[3 * j], y = s->x[3 * i + 1] - s->x[3 * j + 1],
+             z = s->x[3 * i + 2] - s->x[3 * j + 2];
+      w = pair_weight(kern, line, &c->run, x * x + y * y + z * z, 0.5 * (s->h[i] + s->h[j]));
+      delta += w, rho += s->m[j] * w;
+    }
+    s->delta[i] = delta;
+    s->rho[i] = miscible ? s->m[i] * delta : rho;
+  }
+}
+
+/* The stamps: every kernel with the literals it needs. A line (1D) has one instance of each loop,
+ * the most general. */
+#define LOOPS_GRADIENT(CAPITAL, ...)                                                               \
+  case KERNEL_##CAPITAL:                                                                           \
+    if (line)                                                                                      \
+      gradient_loop(sim, KERNEL_##CAPITAL, 1, sim->solid);                                         \
+    else if (sim->solid)                                                                           \
+      gradient_loop(sim, KERNEL_##CAPITAL, 0, 1);                                                  \
+    else                                                                                           \
+      gradient_loop(sim, KERNEL_##CAPITAL, 0, 0);                                                  \
+    break;
+#define LOOPS_FORCE(CAPITAL, ...)                                                                  \
+  case KERNEL_##CAPITAL:                                                                           \
+    if (line)                                                                                      \
+      force_loop(sim, KERNEL_##CAPITAL, 1, 1, sim->miscible);                                      \
+    else if (sim->solid)                                                                           \
+      force_loop(sim, KERNEL_##CAPITAL, 0, 1, sim->miscible);                                      \
+    else if (sim->miscible)                                                                        \
+      force_loop(sim, KERNEL_##CAPITAL, 0, 0, 1);                                                  \
+    else                                                                                           \
+      force_loop(sim, KERNEL_##CAPITAL, 0, 0, 0);                                                  \
+    break;
+#define LOOPS_DENSITY(CAPITAL, ...)                                                                \
+  case KERNEL_##CAPITAL:                                                                           \
+    if (line)                                                                                      \
+      density_loop(sim, KERNEL_##CAPITAL, 1, sim->miscible);                                       \
+    else                                                                                           \
+      density_loop(sim, KERNEL_##CAPITAL, 0, sim->miscible);                                       \
+    break;
+
+void cpu_gradient(Sim *sim)
+{
+  int line = sim->s.dimension == 1;
+  backend_begin(sim, TIMER_A);
+  records(sim, 0);
+  switch (sim->par.kernel) {
+    KERNELS(LOOPS_GRADIENT)
+  }
+  backend_end(sim, TIMER_A);
+}
+
+void cpu_force(Sim *sim)
+{
+  int line = sim->s.dimension == 1;
+  backend_begin(sim, TIMER_B);
+  records(sim, 1);
+  switch (sim->par.kernel) {
+    KERNELS(LOOPS_FORCE)
+  }
+  backend_end(sim, TIMER_B);
+}
+
+void cpu_density(Sim *sim)
+{
+  int line = sim->s.dimension == 1;
+  backend_begin(sim, TIMER_DENSITY);
+  switch (sim->par.kernel) {
+    KERNELS(LOOPS_DENSITY)
+  }
+  backend_end(sim, TIMER_DENSITY);
+}

@@ -1,0 +1,202 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The files of a run directory. */
+#include <errno.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include "../lib/snap.h"
+#include "../lib/spool.h"
+#include "output.h"
+
+static const char HEADER[] = "# "
+                             "step\ttime[s]\tdt[s]\tlimit\tparticle\tE_kinetic[J]\tE_internal[J]"
+                             "\tE_potential[J]\tE_total[J]\tp_x[kg*m/s]\tp_y[kg*m/s]\t"
+                             "p_z[kg*m/s]\tL_x[kg*m^2/s]\tL_y[kg*m^2/s]\tL_z[kg*m^2/"
+                             "s]\tsum_mv[kg*m/s]\tsum_mrv[kg*m^2/s]\tmass[kg]\tx[m]\ty[m]\tz[m]\n";
+
+static void name_of(const char *dir, const char *name, char *path, size_t size)
+{
+  snprintf(path, size, "%s/%s", dir, name);
+}
+
+static int open_texts(Output *o, Err *err)
+{
+  char path[4096];
+  name_of(o->dir, "conserved.tsv", path, sizeof path);
+  if (!(o->conserved = fopen(path, "a")))
+    return err_set(err, "cannot write '%s': %s", path, strerror(errno));
+  name_of(o->dir, "run.log", path, sizeof path);
+  if (!(o->log = fopen(path, "a")))
+    return err_set(err, "cannot write '%s': %s", path, strerror(errno));
+  return 0;
+}
+
+static void settle(Output *o, const char *dir, double start, double every, double end)
+{
+  memset(o, 0, sizeof *o);
+  snprintf(o->dir, sizeof o->dir, "%s", dir);
+  o->start = start, o->every = every, o->end = end;
+}
+
+int output_open(Output *o, const char *dir, double start, double every, double end, Err *err)
+{
+  char path[4096];
+  settle(o, dir, start, every, end);
+  name_of(dir, "conserved.tsv", path, sizeof path);
+  if (spool_text(path, HEADER, err)) return -1;
+  return open_texts(o, err);
+}
+
+/* Keeps the header and the lines up to `step`. */
+static int truncate_conserved(const char *path, long step, Err *err)
+{
+  FILE *f = fopen(path, "r");
+  char *text, *line = NULL;
+  size_t room = 0, used = 0, all = 1 << 16;
+  ssize_t n;
+  int rc;
+  if (!f) return spool_text(path, HEADER, err);
+  text = malloc(all);
+  while (text && (n = getline(&line, &room, f)) > 0) {
+    if (line[n - 1] != '\n' || (line[0] != '#' && atol(line) > step)) break;
+    while (used + (size_t)n + 1 > all && text) text = realloc(text, all *= 2);
+    if (text) memcpy(text + used, line, (size_t)n + 1);
+    used += (size_t)n;
+  }
+  fclose(f);
+  free(line);
+  if (!text) return err_set(err, "not enough memory");
+  rc = spool_text(path, used ? text : HEADER, err);
+  free(text);
+  return rc;
+}
+
+int output_resume(Output *o, const char *dir, double start, double every, double end,
+                  const Sim *sim, Err *err)
+{
+  char path[4096];
+  settle(o, dir, start, every, end);
+  while (output_due(o) <= sim->time && output_due(o) < end) o->next++;
+  if (sim->time >= end) o->next++;
+  name_of(dir, "conserved.tsv", path, sizeof path);
+  if (truncate_conserved(path, sim->step, err)) return -1;
+  return open_texts(o, err);
+}
+
+void output_close(Output *o)
+{
+  if (o->conserved) fclose(o->conserved);
+  if (o->log) fclose(o->log);
+  o->conserved = o->log = NULL;
+}
+
+double output_due(const Output *o)
+{
+  double t = o->start + (double)o->next * o->every;
+  return t < o->end ? t : o->end;
+}
+
+int output_conserved(Output *o, Sim *sim, const SimStep *done, Err *err)
+{
+  Sums s;
+  sim->b->sums(sim, &s);
+  fprintf(o->conserved, "%ld\t%.9g\t%.6g\t%s\t%lld\t%.12g\t%.12g\t%.12g\t%.12g", sim->step,
+          sim->time, done ? done->dt : 0, done ? sim_limit_name(done->limit) : "start",
+          done ? (long long)done->id : -1LL, s.kinetic, s.internal, s.potential,
+          s.kinetic + s.internal + s.potential);
+  for (int d = 0; d < 3; d++) fprintf(o->conserved, "\t%.9g", s.momentum[d]);
+  for (int d = 0; d < 3; d++) fprintf(o->conserved, "\t%.12g", s.angular[d]);
+  fprintf(o->conserved, "\t%.9g\t%.9g\t%.15g", s.scale_momentum, s.scale_angular, s.mass);
+  for (int d = 0; d < 3; d++) fprintf(o->conserved, "\t%.9g", s.centre[d]);
+  fputc('\n', o->conserved);
+  if (fflush(o->conserved))
+    return err_set(err, "cannot write '%s/conserved.tsv': %s", o->dir, strerror(errno));
+  return 0;
+}
+
+static int write_series(const Output *o, double last, Err *err)
+{
+  long n = o->next + 1;
+  char *names = malloc((size_t)n * 32);
+  const char **files = malloc((size_t)n * sizeof *files);
+  double *times = malloc((size_t)n * sizeof *times);
+  int rc = -1;
+  if (names && files && times) {
+    for (long k = 0; k < n; k++) {
+      snprintf(names + 32 * k, 32, "snap_%04ld.h5", k);
+      files[k] = names + 32 * k;
+      times[k] = k == o->next ? last : o->start + (double)k * o->every;
+    }
+    rc = snap_series(o->dir, files, times, (int)n, err);
+  } else
+    err_set(err, "not enough memory");
+  free(names), free(files), free(times);
+  return rc;
+}
+
+int output_snapshot(Output *o, Sim *sim, Parts *parts, Err *err)
+{
+  char path[4096], name[32];
+  snprintf(name, sizeof name, "snap_%04ld.h5", o->next);
+  name_of(o->dir, name, path, sizeof path);
+  if (sim_store(sim, parts, err) || snap_write(parts, path, 0, err) ||
+      write_series(o, sim->time, err))
+    return -1;
+  output_log(o, "%s at step %ld, t = %.9g s", name, sim->step, sim->time);
+  o->next++;
+  return 0;
+}
+
+int output_checkpoint(Output *o, Sim *sim, Parts *parts, Err *err)
+{
+  char path[4096], before[4096];
+  name_of(o->dir, "checkpoint.h5", path, sizeof path);
+  name_of(o->dir, "checkpoint_prev.h5", before, sizeof before);
+  if (sim_store(sim, parts, err)) return -1;
+  if (rename(path, before) && errno != ENOENT)
+    return err_set(err, "cannot rename '%s': %s", path, strerror(errno));
+  return snap_write(parts, path, 1, err);
+}
+
+int output_find_checkpoint(const char *dir, Parts **found, Err *err)
+{
+  static const char *const names[] = {"checkpoint.h5", "checkpoint_prev.h5"};
+  char path[4096];
+  int there = 0;
+  *found = NULL;
+  for (int k = 0; k < 2; k++) {
+    name_of(dir, names[k], path, sizeof path);
+    if (access(path, F_OK)) continue;
+    there = 1;
+    if ((*found = snap_read(path, err))) return 0;
+    err_warn("%s", err->text);
+  }
+  return there ? -1 : 0;
+}
+
+int output_has_checkpoint(const char *dir)
+{
+  char path[4096];
+  name_of(dir, "checkpoint.h5", path, sizeof path);
+  return access(path, F_OK) == 0;
+}
+
+int output_in_use(const char *dir)
+{
+  char path[4096];
+  name_of(dir, "snap_0000.h5", path, sizeof path);
+  return output_has_checkpoint(dir) || access(path, F_OK) == 0;
+}
+
+void output_log(Output *o, const char *format, ...)
+{
+  va_list args;
+  if (!o->log) return;
+  va_start(args, format);
+  vfprintf(o->log, format, args);
+  va_end(args);
+  fputc('\n', o->log);
+  fflush(o->log);
+}

@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a run writes into its directory. Everything except run.log is a function of the input and
+ * the settings alone. */
+#ifndef OUTPUT_H
+#define OUTPUT_H
+
+#include <stdio.h>
+#include "sim.h"
+
+typedef struct {
+  char dir[3072];
+  double start, every, end; /* s */
+  long next;                /* index of the next snapshot */
+  FILE *conserved, *log;
+} Output;
+
+/* output_open: a fresh directory. output_resume: one that is continued: lines of conserved.tsv
+ * behind the checkpoint are dropped. */
+int output_open(Output *o, const char *dir, double start, double every, double end, Err *err);
+int output_resume(Output *o, const char *dir, double start, double every, double end,
+                  const Sim *sim, Err *err);
+void output_close(Output *o);
+
+/* output_due: the time of the next snapshot [s]. */
+double output_due(const Output *o);
+
+/* output_conserved: a line of sums; done is the step just made, or NULL at the start. */
+int output_conserved(Output *o, Sim *sim, const SimStep *done, Err *err);
+
+/* output_snapshot: snap_NNNN.h5, and run.h5part anew. output_checkpoint: checkpoint.h5; the one
+ * before becomes checkpoint_prev.h5. */
+int output_snapshot(Output *o, Sim *sim, Parts *parts, Err *err);
+int output_checkpoint(Output *o, Sim *sim, Parts *parts, Err *err);
+
+/* output_find_checkpoint: reads checkpoint.h5, or checkpoint_prev.h5 when that is missing or
+ * broken; *found is NULL when there is none at all. */
+int output_find_checkpoint(const char *dir, Parts **found, Err *err);
+int output_has_checkpoint(const char *dir);
+int output_in_use(const char *dir);
+
+/* output_log: a line of run.log. */
+void output_log(Output *o, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+#endif

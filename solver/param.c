@@ -1,0 +1,189 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The table of run settings and what is made from it. */
+#include <math.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+#include "../physics/kernel.h"
+#include "../lib/unit.h"
+#include "integrator.h"
+#include "param.h"
+
+/* Words of a list, each with a bar in front; the rows skip the first bar. */
+#define WORD_KERNEL(CAPITAL, NAME, ...) "|" #NAME
+#define WORD_INTEGRATOR(WORD, NAME)     "|" WORD
+static const char kernel_words[] = KERNELS(WORD_KERNEL);
+static const char integrator_words[] = INTEGRATORS(WORD_INTEGRATOR);
+
+typedef struct {
+  const char *name; /* group in run.cfg; "" for the top level */
+  const CfgRow *rows;
+  int n;
+} Group;
+
+#define AT(MEMBER) offsetof(Param, MEMBER)
+#define ANY        1, 0
+
+/* clang-format off */
+static const CfgRow top[] = {
+  {"integrator", CFG_CHOICE, AT(integrator), integrator_words + 1, "leapfrog", ANY, "time integration"},
+  {"kernel", CFG_CHOICE, AT(kernel), kernel_words + 1, "wendland_c2", ANY, "SPH kernel"},
+  {"precision", CFG_CHOICE, AT(precision), "mixed|double", "mixed", ANY,
+   "mixed: on the CPU gravity interactions in single precision relative to the group, the rest in double"},
+  {"density", CFG_CHOICE, AT(density), "continuity|sum|miscible", "continuity", ANY,
+   "continuity equation, kernel sum, or kernel sum of the number density"},
+  {"density_floor", CFG_REAL, AT(density_floor), "1", "1e-6", 0, 1, "smallest density, in units of the material's rho0"},
+  {"energy", CFG_CHOICE, AT(energy), "full|isentropic|frozen", "full", ANY,
+   "energy equation: all work, compression only (frozen entropy), or none"},
+  {"energy_floor", CFG_REAL, AT(energy_floor), "J/kg", "-1e300", ANY, "smallest specific internal energy"},
+};
+static const CfgRow strength[] = {
+  {"on", CFG_BOOL, AT(strength), NULL, "true", ANY, "deviatoric stress of materials with a shear modulus"},
+  {"damage", CFG_BOOL, AT(damage), NULL, "true", ANY, "brittle damage of materials that have a law for it and flaws"},
+};
+static const CfgRow gravity[] = {
+  {"method", CFG_CHOICE, AT(gravity), "none|tree|direct", "tree", ANY, "self-gravity: Barnes-Hut with quadrupoles, or direct sum"},
+  {"theta", CFG_REAL, AT(theta), "1", "0.7", 0, 1.5, "opening angle: node edge over smallest distance"},
+  {"G", CFG_REAL, AT(G), "1", "6.67430e-11", 0, 1e30, "constant of gravity in m^3/kg/s^2 (CODATA 2018); 1 in code units"},
+};
+static const CfgRow viscosity[] = {
+  {"alpha", CFG_REAL, AT(alpha), "1", "1", 0, 100, "linear artificial viscosity, with h the full support (001 eq. 32)"},
+  {"beta", CFG_REAL, AT(beta), "1", "2", 0, 100, "quadratic artificial viscosity"},
+};
+static const CfgRow smoothing[] = {
+  {"mode", CFG_CHOICE, AT(smoothing), "fixed|density|neighbours", "density", ANY,
+   "h constant, following the density, or also the number of neighbours"},
+  {"neighbours", CFG_REAL, AT(neighbours), "1", "57", 1, 1000, "wanted number of neighbours for mode neighbours"},
+  {"min", CFG_REAL, AT(h_min), "1", "0.2", 0, 1, "smallest h, in units of the smallest of the input"},
+  {"max", CFG_REAL, AT(h_max), "1", "5", 1, 1e6, "largest h, in units of the largest of the input"},
+};
+static const CfgRow step[] = {
+  {"cfl", CFG_REAL, AT(cfl), "1", "0.4", 1e-6, 2, "of h over the largest signal velocity c_i + c_j - 3 v_ij.r_ij/r"},
+  {"acceleration", CFG_REAL, AT(step_acceleration), "1", "0.25", 1e-6, 2, "of sqrt(h/a)"},
+  {"density", CFG_REAL, AT(step_density), "1", "0.3", 1e-6, 10, "of 1/|div v|"},
+  {"damage", CFG_REAL, AT(step_damage), "1", "0.4", 1e-6, 10, "largest growth of the cube root of damage in a step"},
+  {"error", CFG_REAL, AT(step_error), "1", "1e-4", 1e-15, 1, "tolerance of rk2-adaptive"},
+  {"min", CFG_REAL, AT(step_min), "s", "1e-30", 0, 1e300, "a step below this stops the run"},
+  {"max", CFG_REAL, AT(step_max), "s", "0", 0, 1e300, "largest step; 0: no such limit"},
+};
+static const CfgRow damping[] = {
+  {"rate", CFG_REAL, AT(damping), "1/s", "0", 0, 1e300, "dv/dt = -rate (v - v_frame), in the co-rotating frame of each body"},
+  {"radial", CFG_BOOL, AT(damping_radial), NULL, "false", ANY, "damp the radial component only"},
+};
+static const CfgRow output[] = {
+  {"log_every", CFG_INT, AT(log_every), NULL, "10", 1, 1e9, "steps between lines of conserved.tsv"},
+  {"checkpoint_every", CFG_REAL, AT(checkpoint_every), "s", "600", 0, 1e300, "wall-clock time between checkpoints; 0: after every step"},
+};
+/* clang-format on */
+
+#define GROUP(NAME, ROWS)                                                                          \
+  {                                                                                                \
+    NAME, ROWS, (int)(sizeof(ROWS) / sizeof *(ROWS))                                               \
+  }
+static const Group groups[] = {GROUP("", top),
+                               GROUP("strength", strength),
+                               GROUP("gravity", gravity),
+                               GROUP("viscosity", viscosity),
+                               GROUP("smoothing", smoothing),
+                               GROUP("step", step),
+                               GROUP("damping", damping),
+                               GROUP("output", output)};
+enum { GROUPS = sizeof groups / sizeof *groups };
+
+void param_defaults(Param *p)
+{
+  config_t empty;
+  Err err;
+  memset(p, 0, sizeof *p);
+  config_init(&empty);
+  for (int g = 0; g < GROUPS; g++)
+    if (cfg_read(config_root_setting(&empty), groups[g].rows, groups[g].n, p, NULL, 0, "defaults",
+                 &err))
+      err_die("%s", err.text); /* a default of the table itself is wrong */
+  config_destroy(&empty);
+}
+
+int param_read(Param *p, const char *path, Err *err)
+{
+  const char *names[GROUPS];
+  config_t cfg;
+  int bad = 0;
+  param_defaults(p);
+  if (cfg_open(&cfg, path, err)) return -1;
+  for (int g = 1; g < GROUPS; g++) names[g - 1] = groups[g].name;
+  bad = cfg_read(config_root_setting(&cfg), groups[0].rows, groups[0].n, p, names, GROUPS - 1, path,
+                 err);
+  for (int g = 1; g < GROUPS && !bad; g++) {
+    const config_setting_t *s = config_lookup(&cfg, groups[g].name);
+    if (s && !config_setting_is_group(s))
+      bad = cfg_where(err, s, path, "'%s' must be a group { ... }", groups[g].name);
+    else if (s)
+      bad = cfg_read(s, groups[g].rows, groups[g].n, p, NULL, 0, path, err);
+  }
+  config_destroy(&cfg);
+  return bad;
+}
+
+int param_set(Param *p, const char *assignment, Err *err)
+{
+  const char *equals = strchr(assignment, '='), *names[GROUPS];
+  char key[128], *dot, *name;
+  if (!equals || equals == assignment || (size_t)(equals - assignment) >= sizeof key)
+    return err_set(err, "'%s' is not of the form key=value", assignment);
+  memcpy(key, assignment, (size_t)(equals - assignment));
+  key[equals - assignment] = 0;
+  dot = strchr(key, '.');
+  name = dot ? dot + 1 : key;
+  if (dot) *dot = 0;
+  for (int g = 0; g < GROUPS; g++) {
+    if (strcmp(dot ? key : "", groups[g].name) == 0)
+      return cfg_set(groups[g].rows, groups[g].n, p, name, equals + 1, err);
+    names[g] = groups[g].name;
+  }
+  name = (char *)unit_nearest(key, names + 1, GROUPS - 1);
+  return err_set(err, "unknown group '%s'%s%s%s", key, name ? " (did you mean '" : "",
+                 name ? name : "", name ? "'?)" : "");
+}
+
+int param_record(const Param *p, Parts *parts, Err *err)
+{
+  Param standard;
+  char value[128], other[128], line[512];
+  param_defaults(&standard);
+  for (int i = 0; i < parts->parameters; i++) free(parts->parameter[i]);
+  free(parts->parameter);
+  parts->parameter = calloc(128, sizeof *parts->parameter);
+  parts->parameters = 0;
+  if (!parts->parameter) return err_set(err, "not enough memory");
+  for (int g = 0; g < GROUPS; g++)
+    for (int r = 0; r < groups[g].n; r++) {
+      const CfgRow *row = &groups[g].rows[r];
+      cfg_text(row, p, value, sizeof value);
+      cfg_text(row, &standard, other, sizeof other);
+      snprintf(line, sizeof line, "%s%s%s\t%s\t%s", groups[g].name, *groups[g].name ? "." : "",
+               row->name, value, strcmp(value, other) ? "given" : "default");
+      if (!(parts->parameter[parts->parameters++] = strdup(line)))
+        return err_set(err, "not enough memory");
+    }
+  return 0;
+}
+
+void param_markdown(FILE *to)
+{
+  fprintf(to, "| key | default | unit or choice | meaning |\n|---|---|---|---|\n");
+  for (int g = 0; g < GROUPS; g++)
+    for (int r = 0; r < groups[g].n; r++) {
+      const CfgRow *row = &groups[g].rows[r];
+      fprintf(to, "| `%s%s%s` | `%s` | ", groups[g].name, *groups[g].name ? "." : "", row->name,
+              row->value);
+      for (const char *c = row->unit               ? row->unit
+                           : row->type == CFG_BOOL ? "true, false"
+                                                   : "1";
+           *c; c++)
+        if (*c == '|')
+          fputs(", ", to);
+        else
+          fputc(*c, to);
+      fprintf(to, " | %s |\n", row->meaning);
+    }
+}

@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The settings of a run: one table of rows, from which come run.cfg, --set key=value, /Parameters
+ * and docs/run.md. */
+#ifndef PARAM_H
+#define PARAM_H
+
+#include <stdio.h>
+#include "../lib/cfg.h"
+#include "../lib/part.h"
+
+enum { PARAM_CONTINUITY, PARAM_SUM, PARAM_MISCIBLE };
+enum { PARAM_FIXED, PARAM_DENSITY, PARAM_NEIGHBOURS };
+enum { PARAM_NONE, PARAM_TREE, PARAM_DIRECT };
+enum { PARAM_FULL, PARAM_ISENTROPIC, PARAM_FROZEN };
+enum { PARAM_MIXED, PARAM_DOUBLE };
+
+typedef struct {
+  int integrator, kernel, precision, density, energy, strength, damage;
+  double energy_floor, density_floor;
+  int gravity;
+  double theta, G;
+  double alpha, beta;
+  int smoothing;
+  double neighbours, h_min, h_max;
+  double cfl, step_acceleration, step_density, step_damage, step_error, step_min, step_max;
+  double damping;
+  int damping_radial;
+  int log_every;
+  double checkpoint_every;
+} Param;
+
+/* param_defaults: all settings at their defaults. */
+void param_defaults(Param *p);
+
+/* param_read: defaults, then a run.cfg (groups as in the table). Errors are `file:line: ...`. */
+int param_read(Param *p, const char *path, Err *err);
+
+/* param_set: one "key=value" of the command line, key with its group: "gravity.theta=0.5". */
+int param_set(Param *p, const char *assignment, Err *err);
+
+/* param_record: every setting, its value and whether it was given, into the snapshot's /Parameters.
+ */
+int param_record(const Param *p, Parts *parts, Err *err);
+
+/* param_markdown: the table for docs/run.md. */
+void param_markdown(FILE *to);
+
+#endif

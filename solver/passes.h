@@ -1,0 +1,391 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The per-particle passes: the list, and what each does to particle i. A backend stamps a loop a
+ * pass. What is once per particle (which laws) is a switch in here; what is once per run (modes) is
+ * a number in Step. */
+#ifndef PASSES_H
+#define PASSES_H
+
+#include "../physics/pair.h"
+#include "../physics/tensor.h"
+#include "state.h"
+
+enum { BODIES = 8 };
+
+/* Numbers of a step: the same for all particles. */
+typedef struct {
+  double dt;                                        /* s */
+  int density, energy, smoothing, strength, damage; /* modes, see param.h */
+  double neighbours, h_min, h_max, density_floor, energy_floor;
+  double cfl, acceleration, step_density, step_damage; /* factors of the limits */
+  double damping;                                      /* 1/s; 0: none */
+  int damping_radial;
+  double centre[BODIES][3], velocity[BODIES][3],
+      omega[BODIES][3]; /* frames that are damped towards */
+  int slot, rates;      /* saved arrays to work on; whether rates are saved instead of the state */
+  double weight[3];     /* of the saved rates 1..3 in a combination */
+} Step;
+
+/* Why a step is as short as it is; what conserved.tsv and the log name. */
+/* clang-format off */
+#define LIMIT_NAMES(L) L(CFL, "cfl") L(ACCELERATION, "acceleration") L(DENSITY, "density") L(DAMAGE, "damage")
+/* clang-format on */
+enum {
+#define LIMIT_ENUM(CAPITAL, NAME) LIMIT_##CAPITAL,
+  LIMIT_NAMES(LIMIT_ENUM)
+#undef LIMIT_ENUM
+      LIMITS
+};
+
+enum {
+  BAD_NONE,
+  BAD_POSITION,
+  BAD_VELOCITY,
+  BAD_DENSITY,
+  BAD_ENERGY,
+  BAD_SMOOTHING,
+  BAD_ACCELERATION,
+  BAD_STRESS
+};
+
+/* passes_stress: the six numbers of particle i as a tensor, and back. */
+HD Sym passes_stress(const double *s)
+{
+  Sym t = {s[0], s[1], s[2], s[3], s[4], s[5]};
+  return t;
+}
+
+HD void passes_keep_stress(double *s, Sym t)
+{
+  s[0] = t.xx, s[1] = t.xy, s[2] = t.xz, s[3] = t.yy, s[4] = t.yz, s[5] = t.zz;
+}
+
+/* passes_jaumann: dS/dt = 2 mu (e - tr e/3) + R S - S R, R = (g - g^T)/2. Corrects the sign of 001
+ * eq. 9 (validation.md B11). */
+HD Sym passes_jaumann(Sym s, const double *g, double mu)
+{
+  double rxy = 0.5 * (g[1] - g[3]), rxz = 0.5 * (g[2] - g[6]), ryz = 0.5 * (g[5] - g[7]);
+  double tr = (g[0] + g[4] + g[8]) / 3;
+  Sym d;
+  d.xx = 2 * mu * (g[0] - tr) + 2 * (rxy * s.xy + rxz * s.xz);
+  d.yy = 2 * mu * (g[4] - tr) + 2 * (ryz * s.yz - rxy * s.xy);
+  d.zz = 2 * mu * (g[8] - tr) - 2 * (rxz * s.xz + ryz * s.yz);
+  d.xy = mu * (g[1] + g[3]) + rxy * (s.yy - s.xx) + rxz * s.yz + ryz * s.xz;
+  d.xz = mu * (g[2] + g[6]) + rxz * (s.zz - s.xx) + rxy * s.yz - ryz * s.xy;
+  d.yz = mu * (g[5] + g[7]) + ryz * (s.zz - s.yy) - rxy * s.xz - rxz * s.xy;
+  return d;
+}
+
+/* passes_work: (-p div v + S:e)/rho [W/kg] with the stress as damage leaves it (001 eq. 5, 20, 21).
+ */
+HD double passes_work(double p, Sym s, double damage, double div, const double *g, double rho,
+                      int solid)
+{
+  double left = 1 - damage, w = -(p < 0 ? left * p : p) * div;
+  Sym e = {g[0], 0.5 * (g[1] + g[3]), 0.5 * (g[2] + g[6]), g[4], 0.5 * (g[5] + g[7]), g[8]};
+  if (solid) w += left * tensor_dot(s, e);
+  return w / rho;
+}
+
+/* passes_eos: p, cs and the longitudinal wave speed of i at energy u. */
+HD void passes_eos(const State *s, long i, double u)
+{
+  const Material *m = &s->material[s->mat[i]];
+  const double *x = &s->x[3 * i];
+  EosPoint e = eos_eval(&m->eos, s->rho[i], u, sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]));
+  s->ue[i] = u;
+  s->p[i] = e.p;
+  s->cs[i] = e.cs;
+  s->cl[i] = m->mu > 0 ? sqrt(e.cs * e.cs + 4. / 3 * m->mu / s->rho[i]) : e.cs;
+}
+
+/* passes_yield: limits the deviatoric stress of i; what it gives up is plastic strain. */
+HD void passes_yield(const State *s, long i)
+{
+  const Material *m = &s->material[s->mat[i]];
+  Sym d = passes_stress(&s->s[6 * i]);
+  double j2 = tensor_j2(d),
+         f = yield_factor(&m->yield, j2, s->p[i], s->damage[i], s->ue[i], m->melt);
+  if (f >= 1) return;
+  s->strain[i] += (1 - f) * sqrt(3 * j2) / (3 * m->mu);
+  passes_keep_stress(&s->s[6 * i], tensor_scale(d, f));
+}
+
+/* passes_strain: the local scalar strain sigma_max/((1-D) E) (001 eq. 48); the stress is the
+ * damaged one. */
+HD double passes_strain(const State *s, long i)
+{
+  const Material *m = &s->material[s->mat[i]];
+  double left = 1 - s->damage[i], p = s->p[i], largest;
+  if (left <= 0) return 0;
+  largest = left * tensor_largest(passes_stress(&s->s[6 * i])) - (p < 0 ? left * p : p);
+  return largest > 0 ? largest / (left * material_young(m)) : 0;
+}
+
+/* passes_damage: activates flaws and lets cracks grow for dt; keeps the rate of the cube root of D
+ * for the step limit and for rk2. */
+HD void passes_damage(const State *s, long i, double dt)
+{
+  const Material *m = &s->material[s->mat[i]];
+  int active;
+  double cg;
+  s->dcrack[i] = 0;
+  if (m->damage.form == DAMAGE_NONE || s->nflaw[i] == 0 || m->mu <= 0) return;
+  active = damage_active(s->flaw + s->flaw0[i], s->nflaw[i], passes_strain(s, i));
+  if (active == 0) return;
+  if (active > s->nact[i]) s->nact[i] = active;
+  cg = damage_crack_speed(&m->damage.grady_kipp, eos_bulk(&m->eos), m->mu, s->damage[i], s->rho[i]);
+  if (s->damage[i] * s->nflaw[i] < s->nact[i]) s->dcrack[i] = active * cg / s->h[i];
+  s->damage[i] = damage_grow(s->damage[i], active, s->nact[i], s->nflaw[i], cg, s->h[i], dt);
+}
+
+/* passes_pack: sigma/rho^2 for the force loop. */
+HD void passes_pack(const State *s, long i, int solid)
+{
+  double w = 1 / (s->rho[i] * s->rho[i]), left = 1 - s->damage[i], p = s->p[i];
+  Sym d = passes_stress(&s->s[6 * i]);
+  double push = (p < 0 ? left * p : p) * w;
+  d = tensor_scale(d, solid ? left * w : 0);
+  d.xx -= push, d.yy -= push, d.zz -= push;
+  passes_keep_stress(&s->t[6 * i], d);
+}
+
+/* kick: v += a dt. */
+HD void pass_kick(const State *s, const Step *k, long i)
+{
+  for (int d = 0; d < 3; d++) s->v[3 * i + d] += s->a[3 * i + d] * k->dt;
+}
+
+/* passes_smoothing: h after dt: it follows the density (004 eq. 2.36), or also the number of
+ * neighbours (001 eq. 73, at most 5 % a step). */
+HD double passes_smoothing(const State *s, const Step *k, long i)
+{
+  double h = s->h[i] * exp(s->divv[i] * k->dt / s->dimension), want;
+  if (k->smoothing == 0) return s->h[i];
+  if (k->smoothing == 2 && k->dt > 0) {
+    want = 0.5 * (1 + pow(k->neighbours / (s->nngb[i] > 0 ? s->nngb[i] : 1), 1. / s->dimension));
+    h *= want > 1.05 ? 1.05 : want < 0.95 ? 0.95 : want;
+  }
+  return h < k->h_min ? k->h_min : h > k->h_max ? k->h_max : h;
+}
+
+/* drift: x to the end of the step, y at its middle for loop A, density predicted there, h, and the
+ * velocity predicted for loop B. */
+HD void pass_drift(const State *s, const Step *k, long i)
+{
+  double half = 0.5 * k->dt;
+  for (int d = 0; d < 3; d++) {
+    s->y[3 * i + d] = s->x[3 * i + d] + s->v[3 * i + d] * half;
+    s->x[3 * i + d] += s->v[3 * i + d] * k->dt;
+    s->vp[3 * i + d] = s->v[3 * i + d] + s->a[3 * i + d] * half;
+  }
+  s->rhoa[i] = s->rho[i] * exp(-s->divv[i] * half);
+  s->h[i] = passes_smoothing(s, k, i);
+}
+
+/* passes_density: rho after dt by continuity. With a kernel sum it is there already. */
+HD void passes_density(const State *s, const Step *k, long i)
+{
+  double floor = k->density_floor * eos_rho0(&s->material[s->mat[i]].eos);
+  if (k->density == 0) s->rho[i] *= exp(-s->divv[i] * k->dt);
+  if (s->rho[i] < floor) s->rho[i] = floor;
+}
+
+/* advance: after loop A, takes rho, S and D to the end of the step; the energy there is predicted
+ * from the local work, once with the old pressure and once with the mean of both; then EOS, yield,
+ * damage, and what the force loop needs. */
+HD void pass_advance(const State *s, const Step *k, long i)
+{
+  const double *g = &s->g[9 * i], mu = k->strength ? s->material[s->mat[i]].mu : 0;
+  int solid = mu > 0;
+  double p = s->p[i], u = s->u[i], heat = k->energy == 0 ? s->dqdt[i] : 0, work;
+  Sym old = passes_stress(&s->s[6 * i]), mid = old;
+  passes_density(s, k, i);
+  if (solid) {
+    Sym half = tensor_axpy(old, 0.5 * k->dt, passes_jaumann(old, g, mu)), now;
+    now = tensor_axpy(old, k->dt, passes_jaumann(half, g, mu));
+    passes_keep_stress(&s->s[6 * i], now);
+    mid = tensor_scale(tensor_axpy(old, 1, now), 0.5);
+  }
+  if (k->energy == 2) {
+    passes_eos(s, i, u);
+  } else {
+    solid = solid && k->energy == 0;
+    work = passes_work(p, mid, s->damage[i], s->divv[i], g, s->rhoa[i], solid);
+    passes_eos(s, i, u + k->dt * (work + heat));
+    work = passes_work(0.5 * (p + s->p[i]), mid, s->damage[i], s->divv[i], g, s->rhoa[i], solid);
+    passes_eos(s, i, u + k->dt * (work + heat));
+  }
+  if (mu > 0) passes_yield(s, i);
+  if (k->damage) passes_damage(s, i, k->dt);
+  passes_pack(s, i, k->strength);
+}
+
+/* passes_damp: -(v - v_frame)/tau, radial part only or all of it, in the co-rotating frame of the
+ * particle's body (bodies-and- analysis.md 2.5). */
+HD void passes_damp(const State *s, const Step *k, long i, double *acc)
+{
+  int b = s->body[i] >= 0 && s->body[i] < BODIES ? s->body[i] : 0;
+  const double *w = k->omega[b];
+  double r[3], v[3], r2 = 0, vr = 0, f;
+  for (int d = 0; d < 3; d++) r[d] = s->x[3 * i + d] - k->centre[b][d];
+  v[0] = w[1] * r[2] - w[2] * r[1], v[1] = w[2] * r[0] - w[0] * r[2],
+  v[2] = w[0] * r[1] - w[1] * r[0];
+  for (int d = 0; d < 3; d++) {
+    v[d] = s->vp[3 * i + d] - k->velocity[b][d] - v[d];
+    r2 += r[d] * r[d], vr += v[d] * r[d];
+  }
+  f = k->damping_radial && r2 > 0 ? vr / r2 : 0;
+  for (int d = 0; d < 3; d++) acc[d] -= k->damping * (k->damping_radial ? f * r[d] : v[d]);
+}
+
+/* finish: after loop B and gravity: closes the kick and the energy, keeps the rates for the next
+ * step. */
+HD void pass_finish(const State *s, const Step *k, long i)
+{
+  double half = 0.5 * k->dt;
+  if (k->damping > 0) passes_damp(s, k, i, &s->acc[3 * i]);
+  for (int d = 0; d < 3; d++) {
+    s->a[3 * i + d] = s->acc[3 * i + d];
+    s->v[3 * i + d] += s->a[3 * i + d] * half;
+  }
+  if (k->energy == 0) s->u[i] += half * (s->dudt[i] + s->du[i]);
+  if (k->energy == 1) s->u[i] = s->ue[i];
+  if (s->u[i] < k->energy_floor) s->u[i] = k->energy_floor;
+  s->dudt[i] = s->du[i];
+  s->dqdt[i] = s->dq[i];
+  if (s->p[i] > s->pmax[i]) s->pmax[i] = s->p[i];
+}
+
+/* still: before an evaluation with everything at one instant: loop A at x, loop B with v. */
+HD void pass_still(const State *s, const Step *k, long i)
+{
+  (void)k;
+  for (int d = 0; d < 3; d++) s->y[3 * i + d] = s->x[3 * i + d], s->vp[3 * i + d] = s->v[3 * i + d];
+  s->rhoa[i] = s->rho[i];
+}
+
+/* local: EOS, yield and damage of the present state, without advancing it; the rates of S and of
+ * the cracks. */
+HD void pass_local(const State *s, const Step *k, long i)
+{
+  double mu = k->strength ? s->material[s->mat[i]].mu : 0;
+  passes_density(s, k, i);
+  passes_eos(s, i, s->u[i]);
+  if (mu > 0) passes_yield(s, i);
+  if (k->damage) passes_damage(s, i, 0);
+  passes_keep_stress(&s->ds[6 * i], passes_jaumann(passes_stress(&s->s[6 * i]), &s->g[9 * i], mu));
+  passes_pack(s, i, k->strength);
+}
+
+/* passes_heating: du/dt as the run's energy mode has it: all work, compression alone (frozen
+ * entropy), or none. */
+HD double passes_heating(const State *s, const Step *k, long i)
+{
+  if (k->energy == 0) return s->du[i];
+  return k->energy == 1 ? -s->p[i] * s->divv[i] / s->rho[i] : 0;
+}
+
+/* save: the evolved quantities, or their rates, into saved[slot]. Damage goes by its cube root. */
+HD void pass_save(const State *s, const Step *k, long i)
+{
+  const Saved *to = &s->saved[k->slot];
+  double div = s->divv[i];
+  for (int d = 0; d < 3; d++) {
+    to->x[3 * i + d] = k->rates ? s->v[3 * i + d] : s->x[3 * i + d];
+    to->v[3 * i + d] = k->rates ? s->acc[3 * i + d] : s->v[3 * i + d];
+  }
+  for (int d = 0; d < 6; d++) to->s[6 * i + d] = k->rates ? s->ds[6 * i + d] : s->s[6 * i + d];
+  to->rho[i] = k->rates ? -s->rho[i] * div : s->rho[i];
+  to->u[i] = k->rates ? passes_heating(s, k, i) : s->u[i];
+  to->h[i] = k->rates ? (k->smoothing ? s->h[i] * div / s->dimension : 0) : s->h[i];
+  to->crack[i] = k->rates ? s->dcrack[i] : cbrt(s->damage[i]);
+}
+
+/* passes_sum: q + dt (w1 k1 + w2 k2 + w3 k3) of one number. */
+#define PASSES_SUM(MEMBER, J)                                                                      \
+  (s->saved[0].MEMBER[J] +                                                                         \
+   k->dt * (k->weight[0] * s->saved[1].MEMBER[J] + k->weight[1] * s->saved[2].MEMBER[J] +          \
+            k->weight[2] * s->saved[3].MEMBER[J]))
+
+/* combine: state = saved[0] + dt (weight . saved rates 1..3). */
+HD void pass_combine(const State *s, const Step *k, long i)
+{
+  double h, crack = PASSES_SUM(crack, i);
+  for (int d = 0; d < 3; d++) {
+    s->x[3 * i + d] = PASSES_SUM(x, 3 * i + d);
+    s->v[3 * i + d] = PASSES_SUM(v, 3 * i + d);
+  }
+  for (int d = 0; d < 6; d++) s->s[6 * i + d] = PASSES_SUM(s, 6 * i + d);
+  s->rho[i] = PASSES_SUM(rho, i);
+  s->u[i] = PASSES_SUM(u, i);
+  if (s->u[i] < k->energy_floor) s->u[i] = k->energy_floor;
+  h = PASSES_SUM(h, i);
+  s->h[i] = h < k->h_min ? k->h_min : h > k->h_max ? k->h_max : h;
+  if (k->damage && s->nflaw[i] > 0) {
+    double limit = (double)s->nact[i] / s->nflaw[i], old = s->saved[0].crack[i],
+           grown = crack * crack * crack;
+    old = old * old * old;
+    grown = grown > limit ? limit : grown;
+    s->damage[i] = grown > old ? grown : old;
+  }
+}
+
+/* pass_correct: the corrected velocity gradient g = raw C, C the inverse of the moment matrix m
+ * (001 eq. 42-44). Dimensions that are held count as 1. Particles with too few neighbours for an
+ * inverse (det m < 1 % of a full sphere's) keep the raw gradient. */
+HD void pass_correct(const double raw[9], double m[9], int dimension, double g[9])
+{
+  double c[9];
+  if (dimension < 3) m[8] = 1;
+  if (dimension < 2) m[4] = 1;
+  if (!(tensor_invert(m, c) > 0.01))
+    for (int d = 0; d < 9; d++) c[d] = d % 4 == 0;
+  for (int a = 0; a < 3; a++)
+    for (int b = 0; b < 3; b++)
+      g[3 * a + b] = raw[3 * a] * c[b] + raw[3 * a + 1] * c[3 + b] + raw[3 * a + 2] * c[6 + b];
+}
+
+/* pass_limits: the step [s] that each criterion allows to particle i, dt[LIMITS] (001 eq. 54-57
+ * with the errata; 004 eq. 2.45). */
+HD void pass_limits(const State *s, const Step *k, long i, double *dt)
+{
+  const double *a = &s->a[3 * i];
+  double pull = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+  dt[LIMIT_CFL] = k->cfl * s->h[i] / s->signal[i];
+  dt[LIMIT_ACCELERATION] = pull > 0 ? k->acceleration * sqrt(s->h[i] / pull) : INFINITY;
+  dt[LIMIT_DENSITY] = s->divv[i] != 0 ? k->step_density / fabs(s->divv[i]) : INFINITY;
+  dt[LIMIT_DAMAGE] = k->damage && s->dcrack[i] > 0 ? k->step_damage / s->dcrack[i] : INFINITY;
+}
+
+/* pass_bad: whether the state of i makes no sense any more, and why. */
+HD int pass_bad(const State *s, long i)
+{
+  double sum = 0;
+  for (int d = 0; d < 3; d++) {
+    if (!isfinite(s->x[3 * i + d])) return BAD_POSITION;
+    if (!isfinite(s->v[3 * i + d])) return BAD_VELOCITY;
+    if (!isfinite(s->a[3 * i + d])) return BAD_ACCELERATION;
+  }
+  for (int d = 0; d < 6; d++) sum += s->s[6 * i + d];
+  if (!isfinite(sum)) return BAD_STRESS;
+  if (!(s->rho[i] > 0) || !isfinite(s->rho[i])) return BAD_DENSITY;
+  if (!isfinite(s->u[i])) return BAD_ENERGY;
+  if (!(s->h[i] > 0) || !isfinite(s->h[i])) return BAD_SMOOTHING;
+  return BAD_NONE;
+}
+
+/* X(CAPITAL, name) */
+#define PASSES(X)                                                                                  \
+  X(KICK, kick)                                                                                    \
+  X(DRIFT, drift)                                                                                  \
+  X(ADVANCE, advance) X(FINISH, finish) X(STILL, still) X(LOCAL, local) X(SAVE, save)              \
+      X(COMBINE, combine)
+
+enum {
+#define PASS_ENUM(CAPITAL, NAME) PASS_##CAPITAL,
+  PASSES(PASS_ENUM)
+#undef PASS_ENUM
+      PASS_COUNT
+};
+
+#endif

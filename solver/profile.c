@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The table of passes for --profile. */
+#include <omp.h>
+#include "profile.h"
+
+void profile_print(const Sim *sim, long steps, FILE *to)
+{
+  static const char *const names[TIMERS] = {
+      "order and tree", "neighbour search", "loop A (gradient)", "local passes",
+      "density sum",    "loop B (force)",   "gravity",           "reductions"};
+  double per = 1e6 * omp_get_max_threads() / ((double)sim->s.n * (steps > 0 ? (double)steps : 1)),
+         total = 0;
+  fprintf(to,
+          "# pass\tcalls\tseconds\tmicroseconds*core per particle and step (%ld particles, %ld "
+          "steps, %d threads)\n",
+          sim->s.n, steps, omp_get_max_threads());
+  for (int t = 0; t < TIMERS; t++) {
+    const BackendTimer *b = &sim->timer[t];
+    total += b->spent;
+    if (b->calls)
+      fprintf(to, "%s\t%ld\t%.3f\t%.3f\n", names[t], b->calls, b->spent, b->spent * per);
+  }
+  fprintf(to, "all\t\t%.3f\t%.3f\n", total, total * per);
+}

@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Where the time went. */
+#ifndef PROFILE_H
+#define PROFILE_H
+
+#include <stdio.h>
+#include "sim.h"
+
+/* profile_print: the table of passes: name, calls, seconds, microseconds x core per particle and
+ * step. */
+void profile_print(const Sim *sim, long steps, FILE *to);
+
+#endif

@@ -1,0 +1,159 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The run loop: steps, snapshots, checkpoints, stopping. What is written is in output.c. */
+#include <errno.h>
+#include <math.h>
+#include <signal.h>
+#include <string.h>
+#include <sys/stat.h>
+#include "../lib/progress.h"
+#include "../lib/snap.h"
+#include "../lib/unit.h"
+#include "output.h"
+#include "profile.h"
+#include "run.h"
+
+static volatile sig_atomic_t stop_signal; /* set by the handler, read by the loop */
+
+static void on_signal(int number) { stop_signal = number; }
+
+static void catch_signals(void)
+{
+  struct sigaction act;
+  memset(&act, 0, sizeof act);
+  act.sa_handler = on_signal;
+  sigemptyset(&act.sa_mask);
+  sigaction(SIGTERM, &act, NULL);
+  sigaction(SIGINT, &act, NULL);
+}
+
+/* Everything a run keeps in mind. */
+typedef struct {
+  Sim sim;
+  Output out;
+  Parts *parts;
+  const RunOptions *o;
+  double began, saved; /* wall clock: start, last checkpoint */
+  long first_step;
+  Progress bar;
+} Run;
+
+static int fresh(Run *r, const Param *par, Err *err)
+{
+  if (part_history(r->parts, r->o->command, err) || param_record(par, r->parts, err)) return -1;
+  if (part_set_number(r->parts, "run", "StartTime", r->parts->time, err)) return -1;
+  if (output_open(&r->out, r->o->dir, r->parts->time, r->o->every, r->o->end, err)) return -1;
+  if (sim_open(&r->sim, par, r->parts, r->o->device, err)) return -1;
+  output_log(&r->out, "%s %ld particles, %dD, %d material(s), %s on %s", r->o->command, r->parts->n,
+             r->parts->dimension, r->parts->materials, integrator_of(par->integrator)->about,
+             r->sim.b->name);
+  return output_conserved(&r->out, &r->sim, NULL, err) ||
+         output_snapshot(&r->out, &r->sim, r->parts, err);
+}
+
+/* A checkpoint must come from the same input and the same settings (what is written may differ). */
+static int same_run(const Parts *checkpoint, const Param *par, Parts *input, Err *err)
+{
+  if (param_record(par, input, err)) return -1;
+  if (checkpoint->n != input->n)
+    return err_set(err,
+                   "the checkpoint has %ld particles, the input %ld: it belongs to another run",
+                   checkpoint->n, input->n);
+  for (int i = 0; i < input->parameters; i++) {
+    const char *line = input->parameter[i];
+    if (strncmp(line, "output.", 7) == 0) continue;
+    if (i >= checkpoint->parameters || strcmp(line, checkpoint->parameter[i]) != 0)
+      return err_set(err, "the checkpoint was made with another '%.*s': it belongs to another run",
+                     (int)strcspn(line, "\t"), line);
+  }
+  return 0;
+}
+
+static int resume(Run *r, const Param *par, Parts *checkpoint, Err *err)
+{
+  double start = part_number(checkpoint, "run", "StartTime");
+  if (same_run(checkpoint, par, r->parts, err)) return -1;
+  r->parts = checkpoint;
+  if (sim_restart(&r->sim, par, checkpoint, r->o->device, err)) return -1;
+  if (output_resume(&r->out, r->o->dir, start, r->o->every, r->o->end, &r->sim, err)) return -1;
+  output_log(&r->out, "continued from step %ld, t = %.9g s", r->sim.step, r->sim.time);
+  return 0;
+}
+
+static int save(Run *r, Err *err)
+{
+  r->saved = progress_clock();
+  return output_checkpoint(&r->out, &r->sim, r->parts, err);
+}
+
+static void show(Run *r, const SimStep *done)
+{
+  char t[32], dt[32], note[128];
+  snprintf(note, sizeof note, "t %s  dt %s %s", unit_time_text(r->sim.time, t, sizeof t),
+           unit_time_text(done->dt, dt, sizeof dt), sim_limit_name(done->limit));
+  progress_show(&r->bar, (r->sim.time - r->out.start) / (r->o->end - r->out.start), note);
+}
+
+/* After each step: lines, snapshots, checkpoints. Returns 1 to go on, 0 when done, 3 to stop, -1 on
+ * error. */
+static int look_around(Run *r, const SimStep *done, Err *err)
+{
+  int due = r->sim.time >= output_due(&r->out);
+  show(r, done);
+  if (due || r->sim.step % r->sim.par.log_every == 0)
+    if (output_conserved(&r->out, &r->sim, done, err)) return -1;
+  if (due && output_snapshot(&r->out, &r->sim, r->parts, err)) return -1;
+  if (r->sim.time >= r->o->end) return save(r, err) ? -1 : 0;
+  if (stop_signal || progress_clock() - r->began > r->o->max_wall) {
+    if (save(r, err)) return -1;
+    output_log(&r->out, "stopped at step %ld, t = %.9g s: %s", r->sim.step, r->sim.time,
+               stop_signal ? "signal" : "wall clock");
+    return 3;
+  }
+  if (progress_clock() - r->saved > r->sim.par.checkpoint_every && save(r, err)) return -1;
+  return 1;
+}
+
+static int loop(Run *r, Err *err)
+{
+  SimStep done;
+  int go = r->sim.time < r->o->end;
+  progress_start(&r->bar, "solver", 60);
+  while (go == 1) {
+    if (sim_advance(&r->sim, fmin(output_due(&r->out), r->o->end), &done, err))
+      go = -1;
+    else
+      go = look_around(r, &done, err);
+  }
+  progress_end(&r->bar);
+  return go;
+}
+
+int run_system(const RunOptions *o, const Param *par, Parts *parts, Err *err)
+{
+  Run r;
+  Parts *checkpoint = NULL;
+  int rc;
+  memset(&r, 0, sizeof r);
+  r.o = o, r.parts = parts, r.began = r.saved = progress_clock();
+  if (mkdir(o->dir, 0777) && errno != EEXIST)
+    return err_set(err, "cannot make '%s': %s", o->dir, strerror(errno));
+  if (o->restart && output_find_checkpoint(o->dir, &checkpoint, err)) return -1;
+  if (!checkpoint && !o->restart && output_in_use(o->dir))
+    return err_set(err, "'%s' holds a run already: --restart continues it", o->dir);
+  catch_signals();
+  rc = checkpoint ? resume(&r, par, checkpoint, err) : fresh(&r, par, err);
+  r.first_step = r.sim.step;
+  if (rc == 0) rc = loop(&r, err);
+  if (rc < 0) output_log(&r.out, "failed: %s", err->text);
+  if (rc < 0 && output_has_checkpoint(o->dir)) {
+    size_t used = strlen(err->text);
+    snprintf(err->text + used, sizeof err->text - used,
+             "; the last good checkpoint is '%s/checkpoint.h5'", o->dir);
+  }
+  if (rc == 0) output_log(&r.out, "done at step %ld, t = %.9g s", r.sim.step, r.sim.time);
+  if (rc >= 0 && o->profile) profile_print(&r.sim, r.sim.step - r.first_step, stderr);
+  output_close(&r.out);
+  sim_close(&r.sim);
+  part_free(checkpoint);
+  return rc;
+}

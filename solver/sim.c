@@ -1,0 +1,177 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Opening, advancing and storing a simulation, whatever the backend and the integrator. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "../lib/material.h"
+#include "../lib/progress.h"
+#include "sim.h"
+
+static const char *const bad_names[] = {"nothing",
+                                        "position is not finite",
+                                        "velocity is not finite",
+                                        "density is not positive",
+                                        "internal energy is not finite",
+                                        "smoothing length is not positive",
+                                        "acceleration is not finite",
+                                        "stress is not finite"};
+
+static const struct integrator *const integrators[] = {
+#define SIM_INTEGRATOR(WORD, NAME) &integrator_##NAME,
+    INTEGRATORS(SIM_INTEGRATOR)
+#undef SIM_INTEGRATOR
+};
+
+const struct integrator *integrator_of(int index) { return integrators[index]; }
+
+void backend_begin(Sim *sim, int timer) { sim->timer[timer].start = progress_clock(); }
+
+void backend_end(Sim *sim, int timer)
+{
+  BackendTimer *t = &sim->timer[timer];
+  t->spent += progress_clock() - t->start;
+  t->calls++;
+}
+
+Step sim_step(const Sim *sim, double dt)
+{
+  const Param *p = &sim->par;
+  Step k;
+  memset(&k, 0, sizeof k);
+  k.dt = dt;
+  k.density = p->density, k.energy = p->energy, k.smoothing = p->smoothing;
+  k.strength = sim->solid, k.damage = sim->solid && p->damage;
+  k.neighbours = p->neighbours, k.h_min = p->h_min, k.h_max = p->h_max;
+  k.density_floor = p->density_floor, k.energy_floor = p->energy_floor;
+  k.cfl = p->cfl, k.acceleration = p->step_acceleration;
+  k.step_density = p->step_density, k.step_damage = p->step_damage;
+  k.damping = p->damping, k.damping_radial = p->damping_radial;
+  return k;
+}
+
+/* h_min and h_max are given in units of the smallest and the largest h of the input. */
+static void smoothing_range(Sim *sim, const Parts *p)
+{
+  double low = INFINITY, high = 0;
+  for (long i = 0; i < p->n; i++) low = fmin(low, p->h[i]), high = fmax(high, p->h[i]);
+  sim->par.h_min *= low, sim->par.h_max *= high;
+}
+
+static int open_common(Sim *sim, const Param *par, const Parts *p, const char *device, Err *err)
+{
+  memset(sim, 0, sizeof *sim);
+  if (part_need(p, "id x v m rho u h mat body", "input", err) || part_check(p, "input", err))
+    return -1;
+  if (strcmp(device, "auto") != 0 && strcmp(device, "cpu") != 0)
+    return err_set(err, "cannot use device '%s': this build has only the cpu backend", device);
+  sim->par = *par;
+  sim->b = &backend_cpu;
+  sim->time = p->time;
+  sim->materials = p->materials;
+  sim->slots = integrator_of(par->integrator)->slots;
+  sim->miscible = par->density == PARAM_MISCIBLE;
+  if (!(sim->material = material_load(p, err))) return -1;
+  for (int k = 0; k < p->materials; k++) sim->solid |= par->strength && sim->material[k].mu > 0;
+  return 0;
+}
+
+int sim_open(Sim *sim, const Param *par, const Parts *p, const char *device, Err *err)
+{
+  if (open_common(sim, par, p, device, err)) return sim_close(sim), -1;
+  smoothing_range(sim, p);
+  if (sim->b->open(sim, p, err) || integrator_of(sim->par.integrator)->start(sim, err))
+    return sim_close(sim), -1;
+  return 0;
+}
+
+int sim_restart(Sim *sim, const Param *par, const Parts *p, const char *device, Err *err)
+{
+  if (open_common(sim, par, p, device, err)) return sim_close(sim), -1;
+  if (part_need(p, "a dudt dqdt divv p cs s nact signal dcrack nngb", "checkpoint", err))
+    return sim_close(sim), -1;
+  sim->par.h_min = part_number(p, "run", "SmoothingMin"),
+  sim->par.h_max = part_number(p, "run", "SmoothingMax");
+  sim->dt = part_number(p, "run", "NextStep");
+  sim->step = (long)part_number(p, "run", "Step");
+  if (!(sim->dt > 0) || !(sim->par.h_min > 0)) {
+    sim_close(sim);
+    return err_set(
+        err, "the checkpoint lacks the attributes of /Run: it is a snapshot, not a checkpoint");
+  }
+  if (sim->b->open(sim, p, err)) return sim_close(sim), -1;
+  return 0;
+}
+
+void sim_close(Sim *sim)
+{
+  if (sim->b && sim->own) sim->b->close(sim);
+  free(sim->material);
+  sim->material = NULL;
+}
+
+const char *sim_limit_name(int limit)
+{
+  static const char *const names[] = {
+#define SIM_LIMIT(CAPITAL, NAME) NAME,
+      LIMIT_NAMES(SIM_LIMIT)
+#undef SIM_LIMIT
+          "output",
+      "error", "max"};
+  return limit >= 0 && limit < LIMITS + 3 ? names[limit] : "?";
+}
+
+/* The next step as the criteria have it, and who says so. */
+static int next_limits(Sim *sim, SimStep *next, Err *err)
+{
+  Limits l;
+  Step k = sim_step(sim, 0);
+  char look[512];
+  sim->b->limits(sim, &k, &l);
+  if (l.bad >= 0) {
+    sim->b->look(sim, l.bad, look, sizeof look);
+    return err_set(err, "the state broke down at t = %.9g s, step %ld: %s: %s", sim->time,
+                   sim->step, bad_names[l.bad_reason], look);
+  }
+  next->dt = INFINITY, next->limit = LIMITS + 2, next->id = -1;
+  for (int c = 0; c < LIMITS; c++)
+    if (l.dt[c] < next->dt) next->dt = l.dt[c], next->limit = c, next->id = l.id[c];
+  return 0;
+}
+
+int sim_advance(Sim *sim, double until, SimStep *done, Err *err)
+{
+  const struct integrator *in = integrator_of(sim->par.integrator);
+  double left = until - sim->time, dt;
+  char look[512] = "";
+  if (next_limits(sim, done, err)) return -1;
+  if (sim->dt > 0 && sim->dt < done->dt)
+    done->dt = sim->dt, done->limit = LIMITS + 1, done->id = -1;
+  if (sim->par.step_max > 0 && sim->par.step_max < done->dt)
+    done->dt = sim->par.step_max, done->limit = LIMITS + 2;
+  if (!(done->dt > sim->par.step_min)) {
+    if (done->id >= 0) sim->b->look(sim, done->id, look, sizeof look);
+    return err_set(err, "the time step collapsed to %.3g s (%s) at t = %.9g s: %s", done->dt,
+                   sim_limit_name(done->limit), sim->time, look);
+  }
+  if (left <= done->dt)
+    done->dt = left, done->limit = LIMITS, done->id = -1;
+  else if (left < 2 * done->dt)
+    done->dt = 0.5 * left;
+  dt = done->dt;
+  if (in->step(sim, &dt, err)) return -1;
+  done->dt = dt;
+  sim->time = dt >= left ? until : sim->time + dt;
+  sim->step++;
+  return 0;
+}
+
+int sim_store(Sim *sim, Parts *p, Err *err)
+{
+  double next = sim->dt > 0 && isfinite(sim->dt) ? sim->dt : 1e300;
+  if (sim->b->store(sim, p, err)) return -1;
+  p->time = sim->time;
+  return part_set_number(p, "run", "SmoothingMin", sim->par.h_min, err) |
+         part_set_number(p, "run", "SmoothingMax", sim->par.h_max, err) |
+         part_set_number(p, "run", "NextStep", next, err) |
+         part_set_number(p, "run", "Step", (double)sim->step, err);
+}

@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A simulation as a library: what main.c drives for the solver and relax for the relaxation. */
+#ifndef SIM_H
+#define SIM_H
+
+#include "integrator.h"
+
+/* sim_open: checks what the solver needs (id x v m rho u h mat body; density floor, units), parses
+ * the materials, gives the particles to the backend named by device ("auto", "cpu") and, unless
+ * parts come from a checkpoint, evaluates the first rates. parts stays the caller's. Returns 0 or
+ * -1. */
+int sim_open(Sim *sim, const Param *par, const Parts *parts, const char *device, Err *err);
+void sim_close(Sim *sim);
+
+/* sim_restart: the same from a checkpoint: continues with the rates, step and counters that are in
+ * it, bit for bit. */
+int sim_restart(Sim *sim, const Param *par, const Parts *parts, const char *device, Err *err);
+
+/* Why the last step was as long as it was. */
+typedef struct {
+  double dt;  /* s */
+  int limit;  /* enum of LIMIT_NAMES, or LIMITS (output), LIMITS + 1 (error control), LIMITS + 2
+                 (step.max) */
+  int64_t id; /* the particle, or -1 */
+} SimStep;
+
+/* sim_advance: one step, not past `until`. Fills done. Errors name the particle and its state: not
+ * finite, density or h not positive, step collapsed. */
+int sim_advance(Sim *sim, double until, SimStep *done, Err *err);
+
+/* sim_limit_name: the word for conserved.tsv and the log. */
+const char *sim_limit_name(int limit);
+
+/* sim_store: the present state into parts, with time and the counters that sim_restart needs. */
+int sim_store(Sim *sim, Parts *parts, Err *err);
+
+/* sim_step: the numbers of a step of length dt. */
+Step sim_step(const Sim *sim, double dt);
+
+#endif

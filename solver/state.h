@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The particles as the solver sees them: one array a field, made from lib/fields.h, plus work
+ * arrays that no file holds. Pointers live where the backend lives (host or device); everything
+ * here compiles in C and CUDA. Arrays are in tree order. */
+#ifndef STATE_H
+#define STATE_H
+
+#include "../lib/fields.h"
+#include "../physics/material.h"
+
+/* Work arrays: W(type, member, width, meaning). Those of the first list move with their particle
+ * when the order changes. */
+/* clang-format off */
+#define MOVED_FIELDS(W) \
+  W(int64_t, row,    1, "row in the input and in every snapshot") \
+  W(int64_t, flaw0,  1, "where its thresholds begin in flaw") \
+  W(int32_t, nflaw,  1, "number of thresholds") \
+  W(double,  y,      3, "position at which loop A is evaluated [m]") \
+  W(double,  vp,     3, "velocity that the force loop sees [m/s]") \
+  W(double,  rhoa,   1, "density at loop A [kg/m^3]")
+#define WORK_FIELDS(W) \
+  W(double,  g,      9, "velocity gradient dv_a/dx_b, corrected [1/s]") \
+  W(double,  du,     1, "energy rate of this evaluation [W/kg]") \
+  W(double,  dq,     1, "viscous part of du [W/kg]") \
+  W(double,  acc,    3, "acceleration of this evaluation, gravity included [m/s^2]") \
+  W(double,  ds,     6, "dS/dt, Jaumann rate included [Pa/s]") \
+  W(double,  ue,     1, "energy at which the EOS was evaluated [J/kg]") \
+  W(double,  t,      6, "sigma/rho^2, damage included [Pa m^6/kg^2]") \
+  W(double,  cl,     1, "longitudinal wave speed [m/s]")
+/* clang-format on */
+
+/* What an integrator may put aside: the evolved quantities, or rates of them. */
+/* clang-format off */
+#define SAVED_FIELDS(V) \
+  V(x, 3) V(v, 3) V(rho, 1) V(u, 1) V(s, 6) V(crack, 1) V(h, 1)
+/* clang-format on */
+enum { STATE_SLOTS = 4 };
+
+typedef struct {
+#define SAVED_MEMBER(MEMBER, WIDTH) double *MEMBER;
+  SAVED_FIELDS(SAVED_MEMBER)
+#undef SAVED_MEMBER
+} Saved;
+
+typedef struct {
+  long n;
+  int dimension;
+  const Material *material; /* [materials], indexed by mat */
+  const double *flaw;       /* thresholds of all particles, ascending within one */
+#define STATE_MEMBER(TYPE, MEMBER, ...) TYPE *MEMBER;
+  ALL_FIELDS(STATE_MEMBER)
+  MOVED_FIELDS(STATE_MEMBER)
+  WORK_FIELDS(STATE_MEMBER)
+#undef STATE_MEMBER
+      Saved saved[STATE_SLOTS];
+} State;
+
+#endif
