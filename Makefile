@@ -45,7 +45,7 @@ $(BIN)/solver: $B/solver/main.o
 $(tools:%=$(BIN)/%): $$(call objs,tools/$$(@F))
 $(programs:%=$(BIN)/%): $B/libsolver.a $B/libbreccia.a
 	@mkdir -p $(@D)
-	$(CC) $(cflags) -o $@ $^ $(libs)
+	$(CC) $(cflags) -o $@ $(filter %.o,$^) $(filter %.a,$^) $(libs)
 $B/tests/test_%: $B/tests/test_%.o $B/libsolver.a $B/libbreccia.a
 	$(CC) $(cflags) -o $@ $^ -lcmocka $(libs)
 $B/bench/%: $B/bench/%.o $B/libsolver.a $B/libbreccia.a
