@@ -47,7 +47,7 @@ double orbit_time(const Orbit *o, double r)
   else if (b < -1e-12)
     s = 2 * asinh(sqrt(-b / 2)) / q;
   else
-    s = sqrt(2 * g) * (1 + b / 12);
+    s = sqrt(2 * g); /* to b/12 < 1e-13 */
   return o->rp * s + o->e * o->mu * s * s * s * stumpff3(o->beta * s * s);
 }
 

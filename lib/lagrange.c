@@ -1,0 +1,202 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Edges k = 0..n carry r and v, cells k+1/2 the state; cell k lies between the edges k and k+1.
+ * Equations: 2.2, steps 1 to 5. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "lagrange.h"
+#include "unit.h"
+
+/* Artificial viscosity of 2.2 step 4, friction and stopping. */
+static const double PI = 3.14159265358979323846, ALPHA = 1, BETA2 = 4, COURANT = 0.3, SLOW = 1e-4,
+                    BALANCED = 1e-3;
+
+typedef struct {
+  double m, rho, u, p, c, q; /* kg, kg/m^3, J/kg, Pa (not cut at 0), m/s, Pa */
+  const Eos *eos;
+  int layer;
+} Cell;
+
+typedef struct {
+  long n;
+  Cell *cell;                 /* [n + 1]; cell n is the vacuum outside */
+  double *r, *v, *m;          /* [n + 1] radius, velocity, mass inside of the edges */
+  double tau, dt, t;          /* friction time, last step, time [s] */
+  long end[STRUCTURE_LAYERS]; /* first cell outside of the layer */
+} Shells;
+
+static double area(const Shells *s, long k) { return 4 * PI * s->r[k] * s->r[k]; }
+static double push(const Cell *c) { return fmax(c->p, 0); }
+
+static double mean_area(const Shells *s, long k) { return (area(s, k) + area(s, k + 1)) / 2; }
+
+/* Pressure force per mass on edge k, and the part of the viscosity. */
+static double force(const Shells *s, long k, double *viscous)
+{
+  const Cell *out = s->cell + k, *in = out - 1;
+  double a = area(s, k), dm = (in->m + out->m) / 2, ai = mean_area(s, k - 1),
+         ao = k < s->n ? mean_area(s, k) : 0;
+  *viscous = -0.5 * (out->q * (3 * ao - a) - in->q * (3 * ai - a)) / dm;
+  return -a * (push(out) - push(in)) / dm;
+}
+
+static double gravity(const Shells *s, long k) { return UNIT_G * s->m[k] / (s->r[k] * s->r[k]); }
+
+static double time_step(const Shells *s)
+{
+  double dt = INFINITY;
+  for (long k = 0; k < s->n; k++) {
+    double dr = s->r[k + 1] - s->r[k], dv = fabs(s->v[k + 1] - s->v[k]);
+    dt = fmin(dt, COURANT * dr / (s->cell[k].c + dv));
+    if (dv > 0) dt = fmin(dt, dr / (4 * BETA2 * dv));
+  }
+  return dt;
+}
+
+/* Along the isentrope to a new density, by the midpoint rule. */
+static void compress(Cell *c, double rho)
+{
+  double mid = (c->rho + rho) / 2, half = c->u + c->p / (c->rho * c->rho) * (mid - c->rho);
+  EosPoint point = eos_eval(c->eos, mid, half, 0);
+  c->u += point.p / (mid * mid) * (rho - c->rho);
+  point = eos_eval(c->eos, rho, c->u, 0);
+  c->rho = rho, c->p = point.p, c->c = point.cs;
+}
+
+/* Step 4: only where a cell is squeezed, also as a fraction of its volume (g < 0). */
+static double viscosity(const Shells *s, long k, double rho)
+{
+  double a = mean_area(s, k), v0 = s->v[k], v1 = s->v[k + 1], g;
+  if (v1 >= v0) return 0;
+  g = (v1 * (a - area(s, k + 1) / 3) - v0 * (a - area(s, k) / 3)) / a;
+  return g < 0 ? -1.5 * rho * g * (ALPHA * s->cell[k].c + BETA2 * (v0 - v1)) : 0;
+}
+
+static int step(Shells *s, Err *err)
+{
+  double next = time_step(s), dt = s->dt > 0 ? (s->dt + next) / 2 : next, drag = dt / (2 * s->tau),
+         viscous;
+  for (long k = 1; k <= s->n; k++) {
+    double a = force(s, k, &viscous) + viscous - gravity(s, k);
+    s->v[k] = (s->v[k] * (1 - drag) + a * dt) / (1 + drag);
+  }
+  for (long k = 1; k <= s->n; k++) s->r[k] += s->v[k] * next;
+  for (long k = 0; k < s->n; k++) {
+    double volume = 4 * PI / 3 * (pow(s->r[k + 1], 3) - pow(s->r[k], 3)), old = s->cell[k].rho;
+    if (!(volume > 0)) return err_set(err, "shell %ld collapsed", k);
+    compress(s->cell + k, s->cell[k].m / volume);
+    s->cell[k].q = viscosity(s, k, (old + s->cell[k].rho) / 2);
+  }
+  s->dt = next, s->t += next;
+  return 0;
+}
+
+static int at_rest(const Shells *s)
+{
+  double slow = SLOW * sqrt(2 * UNIT_G * s->m[s->n] / s->r[s->n]), viscous;
+  for (long k = 1; k <= s->n; k++) {
+    double g = gravity(s, k);
+    if (!(fabs(s->v[k]) < slow && fabs(force(s, k, &viscous) - g) < BALANCED * g)) return 0;
+  }
+  return 1;
+}
+
+static void shells_free(Shells *s) { free(s->cell), free(s->r), free(s->v), free(s->m); }
+
+static int allocate(Shells *s, long n, Err *err)
+{
+  size_t room = (size_t)n + STRUCTURE_LAYERS * 4;
+  s->cell = calloc(room, sizeof *s->cell), s->r = calloc(room, sizeof(double));
+  s->v = calloc(room, sizeof(double)), s->m = calloc(room, sizeof(double));
+  return s->cell && s->r && s->v && s->m ? 0 : err_set(err, "out of memory");
+}
+
+/* The uncompressed body at rest. */
+static int start(Shells *s, const StructureLayer *layer, int layers, long cells, Err *err)
+{
+  double inside = 0, mass = 0, volume = 0, c = 0, before = 0;
+  for (int k = 0; k < layers; k++) mass += layer[k].mass;
+  for (int k = 0; k < layers; k++) {
+    double third = cbrt((inside + layer[k].mass) / mass), rho;
+    long n = (long)fmax(3, (double)cells * (third - before));
+    if (structure_density(layer[k].eos, layer[k].u0, &rho, err)) return -1;
+    for (long i = 1; i <= n; i++) {
+      double at = before + (third - before) * (double)i / (double)n;
+      Cell *cell = s->cell + s->n++;
+      s->m[s->n] = i == n ? inside + layer[k].mass : at * at * at * mass;
+      *cell = (Cell){.m = s->m[s->n] - s->m[s->n - 1],
+                     .rho = rho,
+                     .u = layer[k].u0,
+                     .eos = layer[k].eos,
+                     .layer = k};
+      compress(cell, rho);
+      volume += cell->m / rho, c += cell->c * cell->m / mass;
+      s->r[s->n] = cbrt(volume / (4 * PI / 3));
+    }
+    inside += layer[k].mass, before = third, s->end[k] = s->n;
+  }
+  s->tau = fmin(0.3 * sqrt(3 * PI / 32 / UNIT_G * volume / mass), s->r[s->n] / (2 * PI * c));
+  return 0;
+}
+
+/* A cell's state moved along its isentrope and hydrostatically to radius r, where `m` lies inside.
+ */
+static StructureNode node(const Cell *cell, double from, double r, double m)
+{
+  double g = r > 0 ? UNIT_G * m / (r * r) : 0, gc = UNIT_G * m / (from * from);
+  double dp = r > 0 ? -cell->rho * (r > from ? g : gc) * (r - from)
+                    : 2 * PI / 3 * UNIT_G * pow(cell->rho * from, 2);
+  double rho = cell->rho + dp / (cell->c * cell->c);
+  return (StructureNode){r,
+                         m,
+                         rho,
+                         fmax(cell->p + dp, 0),
+                         cell->u + cell->p / (rho * cell->rho) * (rho - cell->rho),
+                         g,
+                         cell->layer};
+}
+
+/* Nodes at the middle of the cells (of volume and mass) and at both ends of each layer. */
+static int result(const Shells *s, Structure *out, int layers, Err *err)
+{
+  *out = (Structure){.layers = layers};
+  out->node = malloc((size_t)(s->n + 2 * layers) * sizeof *out->node);
+  if (!out->node) return err_set(err, "out of memory");
+  for (long k = 0, layer = 0; k < s->n; k++) {
+    const Cell *c = s->cell + k;
+    double mid = cbrt((pow(s->r[k], 3) + pow(s->r[k + 1], 3)) / 2), m = s->m[k] + c->m / 2;
+    if (k == 0 || k == s->end[layer - 1])
+      out->node[out->n++] = node(c, mid, s->r[k], s->m[k]), layer++;
+    out->node[out->n++] =
+        (StructureNode){mid, m, c->rho, push(c), c->u, UNIT_G * m / (mid * mid), c->layer};
+    if (k + 1 == s->end[layer - 1]) {
+      out->node[out->n++] = node(c, mid, s->r[k + 1], s->m[k + 1]);
+      out->first[layer] = out->n;
+    }
+  }
+  return 0;
+}
+
+int lagrange_relax(Structure *out, const StructureLayer *layer, int layers, long cells, Err *err)
+{
+  Shells s = {0};
+  double quiet = 0, fall, end;
+  int rc = -1;
+  if (layers < 1 || layers > STRUCTURE_LAYERS)
+    return err_set(err, "%d layers, not 1..%d", layers, STRUCTURE_LAYERS);
+  if (cells < 16 || cells > 100000) return err_set(err, "%ld shells, not 16..100000", cells);
+  if (allocate(&s, cells, err) || start(&s, layer, layers, cells, err)) goto done;
+  fall = sqrt(PI * PI / 8 * pow(s.r[s.n], 3) / (UNIT_G * s.m[s.n])); /* sqrt(3 pi/(32 G rho)) */
+  end = 200 * fall;
+  while (quiet < 2 * fall && s.t < end) {
+    if (step(&s, err)) goto done;
+    quiet = at_rest(&s) ? quiet + s.dt : 0;
+  }
+  if (quiet < 2 * fall)
+    err_set(err, "the shells did not come to rest in 200 free-fall times (%.3g s)", end);
+  else
+    rc = result(&s, out, layers, err);
+done:
+  shells_free(&s);
+  return rc;
+}

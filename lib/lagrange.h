@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Hydrostatic structure by letting Lagrangian shells fall to rest under friction (Benz 1991;
+ * bodies-and-analysis.md 2.2 with its corrected signs): independent of structure_solve, and free of
+ * its assumption that the pressure determines the density. */
+#ifndef LAGRANGE_H
+#define LAGRANGE_H
+
+#include "structure.h"
+
+/* lagrange_relax: starts from the uncompressed body with `cells` shells (equal steps of m^(1/3), so
+ * that the centre is resolved) and stops when over two free-fall times max |v| < 1e-4 v_esc and the
+ * force residual < 1e-3 g everywhere. The radius is good to about 0.02/cells^2 ... 1e-5 at 50
+ * cells. Takes about 10 t_ff c/R cells steps: for planets; slow for small stiff bodies. */
+int lagrange_relax(Structure *s, const StructureLayer *layer, int layers, long cells, Err *err);
+
+#endif
