@@ -63,10 +63,10 @@ HD double damage_crack_speed(const struct damage_grady_kipp *d, double bulk, dou
   return d->crack * sqrt((bulk + 4. / 3 * mu * (1 - damage)) / rho);
 }
 
-/* damage_grow: D after dt [s] with nact of ntot flaws active now and `ever` so far. D^(1/3) grows at
- * nact cg/rs (001 eq. 46), rs [m] the radius of the volume that a flaw has to cross: h, the kernel's
- * support, as in miluphcuda. D <= ever/ntot (001 eq. 47: the limit is one of D, not of D^(1/3)).
- * Never shrinks. */
+/* damage_grow: D after dt [s] with nact of ntot flaws active now and `ever` so far. D^(1/3) grows
+ * at nact cg/rs (001 eq. 46), rs [m] the radius of the volume that a flaw has to cross: h, the
+ * kernel's support, as in miluphcuda. D <= ever/ntot (001 eq. 47: the limit is one of D, not of
+ * D^(1/3)). Never shrinks. */
 HD double damage_grow(double damage, int nact, int ever, int ntot, double cg, double rs, double dt)
 {
   double d = cbrt(damage) + nact * cg / rs * dt, limit = ntot > 0 ? (double)ever / ntot : 0;

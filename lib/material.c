@@ -1,0 +1,314 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The rows of a law become a table of CfgRows here. A law's struct is its rows as doubles, in
+ * order, so row k lies k doubles behind the struct's start. */
+#include <dirent.h>
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include "cfg.h"
+#include "material.h"
+#include "unit.h"
+
+enum { MAX_ROWS = 32, MAX_PATH = 4096 };
+
+typedef struct {
+  const CfgRow *rows;
+  int n;
+} Law;
+
+#define N(ARRAY) (int)(sizeof(ARRAY) / sizeof *(ARRAY))
+#define ROW(MEMBER, UNIT, VALUE, MIN, MAX, MEANING)                                                \
+  {#MEMBER, CFG_REAL, 0, UNIT, VALUE, MIN, MAX, MEANING},
+
+#define EOS_TABLE(CAPITAL, NAME)                                                                   \
+  static const CfgRow eos_rows_##NAME[] = {EOS_##CAPITAL##_ROWS(ROW)};
+#define EOS_ENTRY(CAPITAL, NAME) {eos_rows_##NAME, N(eos_rows_##NAME)},
+#define YIELD_TABLE(CAPITAL, NAME)                                                                 \
+  static const CfgRow yield_rows_##NAME[] = {YIELD_##CAPITAL##_ROWS(ROW)};
+#define YIELD_ENTRY(CAPITAL, NAME) {yield_rows_##NAME, N(yield_rows_##NAME)},
+#define DAMAGE_TABLE(CAPITAL, NAME)                                                                \
+  static const CfgRow damage_rows_##NAME[] = {DAMAGE_##CAPITAL##_ROWS(ROW)};
+#define DAMAGE_ENTRY(CAPITAL, NAME) {damage_rows_##NAME, N(damage_rows_##NAME)},
+
+EOS_LAWS(EOS_TABLE)
+YIELD_LAWS(YIELD_TABLE)
+DAMAGE_LAWS(DAMAGE_TABLE)
+
+static const Law EOS[] = {EOS_LAWS(EOS_ENTRY)};
+static const Law YIELD[] = {{NULL, 0}, YIELD_LAWS(YIELD_ENTRY)};
+static const Law DAMAGE[] = {{NULL, 0}, DAMAGE_LAWS(DAMAGE_ENTRY)};
+
+/* What strength holds besides the yield law. */
+static const CfgRow STRENGTH[] = {
+    {"shear_modulus", CFG_REAL, offsetof(Material, mu), "Pa", NULL, 0, 1e30, "shear modulus"},
+    {"melt_energy", CFG_REAL, offsetof(Material, melt), "J/kg", "0", 0, 1e30,
+     "specific energy of the melt; 0: strength does not depend on u"}};
+
+/* A group of the file: its name, the words of `form`, the laws, where form and parameters go. */
+typedef struct {
+  const char *name, *words;
+  const Law *laws;
+  size_t form, parameters;
+  const CfgRow *own;
+  int nown;
+} Group;
+
+/* The form alone, so that the keys that are allowed beside it are known. */
+static int form_read(const config_setting_t *group, const Group *part, Material *m,
+                     const char *label, Err *err)
+{
+  CfgRow row = {"form", CFG_CHOICE, part->form, part->words, NULL, 0, 0, "the law"};
+  int n = config_setting_is_group(group) ? config_setting_length(group) : 0, failed;
+  const char **names = malloc((size_t)(n + 1) * sizeof *names);
+  if (!names) return err_set(err, "no memory for %d keys", n);
+  for (int k = 0; k < n; k++)
+    names[k] = config_setting_name(config_setting_get_elem(group, (unsigned)k));
+  failed = cfg_read(group, &row, 1, m, names, n, label, err);
+  free(names);
+  return failed;
+}
+
+static int source_check(const config_setting_t *group, const char *label, Err *err)
+{
+  const config_setting_t *s = config_setting_get_member(group, "source");
+  if (!s || config_setting_type(s) == CONFIG_TYPE_STRING) return 0;
+  return cfg_where(err, s, label, "'source' must be a text in quotes");
+}
+
+static int part_read(const config_setting_t *group, const Group *part, Material *m,
+                     const char *label, Err *err)
+{
+  static const char *const also[] = {"form", "source"};
+  CfgRow rows[MAX_ROWS];
+  const Law *law;
+  int n = 0;
+  if (form_read(group, part, m, label, err) || source_check(group, label, err)) return -1;
+  law = &part->laws[*(int *)((char *)m + part->form)];
+  for (int k = 0; k < part->nown; k++) rows[n++] = part->own[k];
+  for (int k = 0; k < law->n; k++) {
+    rows[n] = law->rows[k];
+    rows[n++].offset = part->parameters + (size_t)k * sizeof(double);
+  }
+  return cfg_read(group, rows, n, m, also, N(also), label, err);
+}
+
+/* What no single row can say. */
+static int consistent(const config_setting_t *root, const Material *m, const char *label, Err *err)
+{
+  const config_setting_t *eos = config_setting_get_member(root, "eos");
+  const config_setting_t *strength = config_setting_get_member(root, "strength");
+  const config_setting_t *damage = config_setting_get_member(root, "damage");
+  if (m->eos.form == EOS_TILLOTSON && m->eos.tillotson.Ecv <= m->eos.tillotson.Eiv)
+    return cfg_where(err, config_setting_get_member(eos, "Ecv"), label,
+                     "'Ecv' must be above 'Eiv'");
+  if (m->mu > 0 && eos_rho0(&m->eos) <= 0)
+    return cfg_where(err, strength, label, "a gas has no shear modulus");
+  if (m->yield.form != YIELD_NONE && m->mu <= 0)
+    return cfg_where(err, strength, label, "a yield stress needs a 'shear_modulus' above 0");
+  if (m->damage.form != DAMAGE_NONE && m->mu <= 0)
+    return cfg_where(err, damage, label, "'damage' needs a 'shear_modulus' above 0 in 'strength'");
+  return 0;
+}
+
+static int name_read(const config_setting_t *root, MaterialName name, const char *label, Err *err)
+{
+  static const char *const also[] = {"eos", "strength", "damage"};
+  CfgRow row = {"name", CFG_TEXT, 0, NULL, NULL, 0, 0, "what the material is called"};
+  if (cfg_read(root, &row, 1, name, also, N(also), label, err)) return -1;
+  if (name[0] && !strpbrk(name, "/. \t\n")) return 0;
+  return cfg_where(err, config_setting_get_member(root, "name"), label,
+                   "'name' must not be empty nor contain '/', '.' or blanks: '%s'", name);
+}
+
+static int root_read(const config_setting_t *root, Material *m, const char *label, Err *err)
+{
+  const Group parts[] = {
+      {"eos", EOS_WORDS, EOS, (size_t)((char *)&m->eos.form - (char *)m),
+       (size_t)((char *)&m->eos.tillotson - (char *)m), NULL, 0},
+      {"strength", YIELD_WORDS, YIELD, (size_t)((char *)&m->yield.form - (char *)m),
+       (size_t)((char *)&m->yield.von_mises - (char *)m), STRENGTH, N(STRENGTH)},
+      {"damage", DAMAGE_WORDS, DAMAGE, (size_t)((char *)&m->damage.form - (char *)m),
+       (size_t)((char *)&m->damage.grady_kipp - (char *)m), NULL, 0}};
+  MaterialName name;
+  if (name_read(root, name, label, err)) return -1;
+  if (!config_setting_get_member(root, "eos"))
+    return err_set(err, "%s: missing group 'eos' (equation of state)", label);
+  for (int k = 0; k < N(parts); k++) {
+    const config_setting_t *group = config_setting_get_member(root, parts[k].name);
+    if (group && part_read(group, &parts[k], m, label, err)) return -1;
+  }
+  return consistent(root, m, label, err);
+}
+
+int material_parse(Material *m, const char *text, const char *label, Err *err)
+{
+  config_t cfg;
+  int failed;
+  memset(m, 0, sizeof *m);
+  if (cfg_open_text(&cfg, text, label, err)) return -1;
+  failed = root_read(config_root_setting(&cfg), m, label, err);
+  config_destroy(&cfg);
+  return failed;
+}
+
+Material *material_load(const Parts *p, Err *err)
+{
+  Material *m = malloc((size_t)(p->materials + 1) * sizeof *m);
+  char label[96];
+  if (!m) return err_null(err, "no memory for %d materials", p->materials);
+  for (int k = 0; k < p->materials; k++) {
+    snprintf(label, sizeof label, "/Materials/%s", p->material[k].name);
+    if (material_parse(&m[k], p->material[k].text, label, err)) {
+      free(m);
+      return NULL;
+    }
+  }
+  return m;
+}
+
+/* The k-th folder to look into, "" when there is none of that kind; 0 behind the last. */
+static int folder(int k, char path[MAX_PATH])
+{
+  static const char *const beside[] = {"../materials", "../share/breccia/materials"};
+  const char *given = getenv("BRECCIA_MATERIALS");
+  char program[MAX_PATH / 2], *slash;
+  ssize_t n;
+  path[0] = '\0';
+  if (k >= 2 + N(beside)) return 0;
+  if (k == 0 && given) snprintf(path, MAX_PATH, "%s", given);
+  if (k == 1) snprintf(path, MAX_PATH, "materials");
+  if (k < 2) return 1;
+  n = readlink("/proc/self/exe", program, sizeof program - 1);
+  if (n < 0) return 1;
+  program[n] = '\0';
+  if (!(slash = strrchr(program, '/'))) return 1;
+  *slash = '\0';
+  snprintf(path, MAX_PATH, "%s/%s", program, beside[k - 2]);
+  return 1;
+}
+
+static int by_name(const void *a, const void *b) { return strcmp(a, b); }
+
+/* Adds the names of the .cfg files of a folder; a folder that is not there has none. */
+static int names_add(const char *path, MaterialName **names, int *n)
+{
+  struct dirent *entry;
+  DIR *dir = *path ? opendir(path) : NULL;
+  if (!dir) return 0;
+  while ((entry = readdir(dir))) {
+    size_t length = strlen(entry->d_name);
+    MaterialName *more;
+    if (length < 5 || length >= sizeof **names + 4 || strcmp(entry->d_name + length - 4, ".cfg"))
+      continue;
+    if (!(more = realloc(*names, (size_t)(*n + 1) * sizeof *more))) {
+      closedir(dir);
+      return -1;
+    }
+    *names = more;
+    snprintf(more[(*n)++], sizeof *more, "%.*s", (int)length - 4, entry->d_name);
+  }
+  closedir(dir);
+  return 0;
+}
+
+MaterialName *material_names(int *n)
+{
+  MaterialName *names = calloc(1, sizeof *names);
+  char path[MAX_PATH];
+  int all = 0;
+  *n = 0;
+  for (int k = 0; names && folder(k, path); k++)
+    if (names_add(path, &names, &all)) {
+      free(names);
+      return NULL;
+    }
+  if (!names) return NULL;
+  qsort(names, (size_t)all, sizeof *names, by_name);
+  for (int k = 0; k < all; k++)
+    if (!*n || strcmp(names[*n - 1], names[k])) memmove(names[(*n)++], names[k], sizeof *names);
+  return names;
+}
+
+static char *unknown(const char *name, Err *err)
+{
+  int n = 0;
+  MaterialName *names = material_names(&n);
+  const char **list = malloc((size_t)(n + 1) * sizeof *list), *near = NULL;
+  char known[512] = "";
+  for (int k = 0; names && list && k < n; k++) {
+    size_t used = strlen(known);
+    list[k] = names[k];
+    snprintf(known + used, sizeof known - used, "%s%s", k ? ", " : "", names[k]);
+  }
+  if (names && list) near = unit_nearest(name, list, n);
+  if (near)
+    err_set(err, "unknown material '%s' (did you mean '%s'?)", name, near);
+  else if (n)
+    err_set(err, "unknown material '%s' (known: %s)", name, known);
+  else
+    err_set(err,
+            "unknown material '%s': no materials in $BRECCIA_MATERIALS, 'materials' or beside the "
+            "program",
+            name);
+  free(names);
+  free(list);
+  return NULL;
+}
+
+/* A whole text file, malloc'ed. */
+static char *slurp(const char *path, Err *err)
+{
+  FILE *f = fopen(path, "r");
+  size_t room = 1 << 16, n = 0, got;
+  char *text = NULL, *more;
+  if (!f) return err_null(err, "cannot open '%s': %s", path, strerror(errno));
+  do {
+    if (n + 1 >= room) room *= 2;
+    if (!(more = realloc(text, room))) break;
+    text = more;
+    got = fread(text + n, 1, room - n - 1, f);
+    n += got;
+  } while (got > 0);
+  if (!more || ferror(f) || memchr(text, '\0', n)) {
+    err_set(err, "cannot read '%s': %s", path,
+            !more       ? "no memory"
+            : ferror(f) ? strerror(errno)
+                        : "not a text file");
+    free(text);
+    text = NULL;
+  } else
+    text[n] = '\0';
+  fclose(f);
+  return text;
+}
+
+static char *named(const char *path, MaterialName name, Err *err)
+{
+  char *text = slurp(path, err);
+  config_t cfg;
+  int failed;
+  if (!text || cfg_open_text(&cfg, text, path, err)) {
+    free(text);
+    return NULL;
+  }
+  failed = name_read(config_root_setting(&cfg), name, path, err);
+  config_destroy(&cfg);
+  if (!failed) return text;
+  free(text);
+  return NULL;
+}
+
+char *material_find(const char *name_or_path, MaterialName name, Err *err)
+{
+  size_t length = strlen(name_or_path);
+  char at[MAX_PATH], path[MAX_PATH + 128];
+  if (strchr(name_or_path, '/') || (length > 4 && !strcmp(name_or_path + length - 4, ".cfg")))
+    return named(name_or_path, name, err);
+  for (int k = 0; length > 0 && length < sizeof(MaterialName) && folder(k, at); k++) {
+    snprintf(path, sizeof path, "%s/%s.cfg", at, name_or_path);
+    if (*at && !access(path, F_OK)) return named(path, name, err);
+  }
+  return unknown(name_or_path, err);
+}
