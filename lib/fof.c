@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fragments: neighbour lists from the tree, joined by a lock-free union-find in which the smaller
+ * index is always the root, so that the forest's roots do not depend on the threads (Jayanti &
+ * Tarjan 2016, arXiv:1612.01514, with linking by index). */
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+#include "fof.h"
+#include "group.h"
+#include "ngb.h"
+
+/* The kept particles in Hilbert order. */
+typedef struct {
+  long n, *row; /* row in Parts */
+  double *x, *h;
+  _Atomic uint32_t *parent;
+} Set;
+
+static uint32_t find(_Atomic uint32_t *parent, uint32_t i)
+{
+  for (;;) {
+    uint32_t up = atomic_load_explicit(&parent[i], memory_order_relaxed);
+    if (up == i) return i;
+    uint32_t over = atomic_load_explicit(&parent[up], memory_order_relaxed);
+    if (over != up) atomic_compare_exchange_weak(&parent[i], &up, over); /* halve the path */
+    i = over;
+  }
+}
+
+static void join(_Atomic uint32_t *parent, uint32_t i, uint32_t j)
+{
+  for (;;) {
+    i = find(parent, i), j = find(parent, j);
+    if (i == j) return;
+    if (i < j) {
+      uint32_t swap = i;
+      i = j, j = swap;
+    }
+    uint32_t root = i;
+    if (atomic_compare_exchange_strong(&parent[i], &root, j)) return;
+  }
+}
+
+static void set_free(Set *s) { free(s->row), free(s->x), free(s->h), free(s->parent); }
+
+static int set_room(Set *s, long n, Err *err)
+{
+  size_t room = (size_t)n + 1;
+  s->row = malloc(room * sizeof *s->row), s->parent = malloc(room * sizeof *s->parent);
+  s->x = malloc(3 * room * sizeof *s->x), s->h = malloc(room * sizeof *s->h);
+  if (s->row && s->parent && s->x && s->h) return 0;
+  return err_set(err, "out of memory for %ld particles", n);
+}
+
+/* The kept particles: rows, then sorted along the curve. */
+static int set_fill(Set *s, const Parts *p, const unsigned char *keep, Err *err)
+{
+  int64_t *id = malloc((size_t)(p->n + 1) * sizeof *id);
+  long *order = malloc((size_t)(p->n + 1) * sizeof *order), *row = s->row;
+  int failed = !id || !order ? err_set(err, "out of memory for %ld particles", p->n) : 0;
+  for (long i = 0; i < p->n && !failed; i++) {
+    if (keep && !keep[i]) continue;
+    memcpy(s->x + 3 * s->n, p->x + 3 * i, 3 * sizeof *s->x);
+    id[s->n] = p->id[i], row[s->n++] = i;
+  }
+  if (!failed && s->n) failed = tree_order(s->n, s->x, id, order, err);
+  for (long k = 0; k < s->n && !failed; k++) order[k] = row[order[k]];
+  for (long k = 0; k < s->n && !failed; k++) {
+    row[k] = order[k], s->h[k] = p->h[row[k]];
+    memcpy(s->x + 3 * k, p->x + 3 * row[k], 3 * sizeof *s->x);
+    atomic_init(&s->parent[k], (uint32_t)k);
+  }
+  free(id), free(order);
+  return failed;
+}
+
+static int set_link(Set *s, double link, Err *err)
+{
+  Tree tree = {0};
+  Ngb ngb = {0};
+  int failed = s->n < 2 ? 0 : tree_build(&tree, s->n, s->x, NULL, s->h, err);
+  if (!failed && s->n > 1) failed = ngb_search(&ngb, &tree, s->x, NULL, s->h, link, err);
+  if (!failed && s->n > 1) {
+#pragma omp parallel for schedule(dynamic, 1024)
+    for (long i = 0; i < s->n; i++)
+      for (int64_t k = ngb.start[i]; k < ngb.start[i + 1]; k++)
+        if (ngb.list[k] < i) join(s->parent, (uint32_t)i, ngb.list[k]);
+  }
+  ngb_free(&ngb), tree_free(&tree);
+  return failed;
+}
+
+long fof_find(const Parts *p, double link, const unsigned char *keep, long least, int32_t *id,
+              Err *err)
+{
+  Set s = {0};
+  long found = -1;
+  if (!set_room(&s, p->n, err) && !set_fill(&s, p, keep, err) && !set_link(&s, link, err)) {
+    memset(id, 0, (size_t)p->n * sizeof *id);
+    for (long k = 0; k < s.n; k++) id[s.row[k]] = (int32_t)find(s.parent, (uint32_t)k) + 1;
+    found = group_rank(p, id, s.n, least, err);
+  }
+  set_free(&s);
+  return found;
+}

@@ -1,0 +1,366 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Two passes over the members: centre and composition, then moments about the centre. Principal
+ * axes by GSL. */
+#include <ctype.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <gsl/gsl_eigen.h>
+#include <gsl/gsl_sort.h>
+#include "group.h"
+#include "gravity.h"
+#include "unit.h"
+
+#define PI     3.14159265358979323846
+#define DIRECT 512 /* up to here n^2 sums are faster than a tree */
+#define GHOST                                                                                      \
+  1e-60 /* mass of a particle that only feels, in units of its own: invisible in double precision  \
+         */
+
+/* clang-format off */
+/* X(name, unit, value) of a Group *g in a system Group *s */
+#define COLUMNS(X) \
+  X("x", "m", g->x[0] - s->x[0]) X("y", "m", g->x[1] - s->x[1]) X("z", "m", g->x[2] - s->x[2]) \
+  X("vx", "m/s", g->v[0] - s->v[0]) X("vy", "m/s", g->v[1] - s->v[1]) X("vz", "m/s", g->v[2] - s->v[2]) \
+  X("radius", "m", g->radius) X("r50", "m", g->r50) X("r90", "m", g->r90) X("r99", "m", g->r99) \
+  X("density", "kg/m^3", g->rho) X("density_max", "kg/m^3", g->rho_max) \
+  X("b/a", "1", axes(g, 1)) X("c/a", "1", axes(g, 2)) \
+  X("omega_x", "rad/s", g->omega[0]) X("omega_y", "rad/s", g->omega[1]) X("omega_z", "rad/s", g->omega[2]) \
+  X("period", "s", g->period) X("Lx", "kg m^2/s", g->l[0]) X("Ly", "kg m^2/s", g->l[1]) X("Lz", "kg m^2/s", g->l[2]) \
+  X("E_kin", "J", g->e_kin) X("E_rot", "J", g->e_rot) X("E_th", "J", g->e_th) X("E_pot", "J", g->e_pot) \
+  X("k_vir", "1", -2 * g->e_kin / g->e_pot) \
+  X("damage", "1", g->damage) X("damaged", "%", 100 * g->damaged) X("water", "%", 100 * g->water)
+/* clang-format on */
+
+typedef struct {
+  int64_t id;
+  long i;
+} Key;
+
+typedef struct {
+  int64_t first; /* lowest particle id */
+  double mass;   /* kg */
+  long n, old;
+} Rank;
+
+static int by_id(const void *a, const void *b)
+{
+  const Key *p = a, *q = b;
+  return p->id < q->id ? -1 : p->id > q->id;
+}
+
+static int by_mass(const void *a, const void *b)
+{
+  const Rank *p = a, *q = b;
+  if (p->mass != q->mass) return p->mass > q->mass ? -1 : 1;
+  return p->first < q->first ? -1 : p->first > q->first;
+}
+
+int group_order(const Parts *p, long *order, Err *err)
+{
+  Key *key = malloc((size_t)(p->n + 1) * sizeof *key);
+  if (!key) return err_set(err, "out of memory for %ld particles", p->n);
+  for (long i = 0; i < p->n; i++) key[i] = (Key){p->id[i], i};
+  qsort(key, (size_t)p->n, sizeof *key, by_id);
+  for (long i = 0; i < p->n; i++) order[i] = key[i].i;
+  free(key);
+  return 0;
+}
+
+long group_rank(const Parts *p, int32_t *id, long groups, long least, Err *err)
+{
+  long found = 0, *order = malloc((size_t)(p->n + 1) * sizeof *order);
+  Rank *rank = calloc((size_t)groups + 1, sizeof *rank);
+  int32_t *name = calloc((size_t)groups + 1, sizeof *name);
+  if (!order || !rank || !name || group_order(p, order, err)) {
+    free(order), free(rank), free(name);
+    return err_set(err, "out of memory for %ld particles", p->n);
+  }
+  for (long o = 0; o < p->n; o++) {
+    long i = order[o], k = id[i];
+    if (k == 0) continue;
+    if (rank[k].n++ == 0) rank[k].first = p->id[i], rank[k].old = k;
+    rank[k].mass += p->m[i];
+  }
+  qsort(rank, (size_t)groups + 1, sizeof *rank, by_mass);
+  for (long k = 0; k <= groups; k++)
+    if (rank[k].n >= least && rank[k].n > 0) name[rank[k].old] = (int32_t)++found;
+  for (long i = 0; i < p->n; i++) id[i] = name[id[i]];
+  free(order), free(rank), free(name);
+  return found;
+}
+
+int group_lists(const Parts *p, const int32_t *id, long groups, long **start, long **list, Err *err)
+{
+  long *order = malloc((size_t)(p->n + 1) * sizeof *order);
+  *start = calloc((size_t)groups + 2, sizeof **start),
+  *list = malloc((size_t)(p->n + 1) * sizeof **list);
+  if (!order || !*start || !*list || group_order(p, order, err)) {
+    free(order), free(*start), free(*list);
+    return err_set(err, "out of memory for %ld particles", p->n);
+  }
+  for (long i = 0; i < p->n; i++)
+    if (id[i] > 0) (*start)[id[i] + 1]++;
+  for (long k = 1; k <= groups; k++) (*start)[k + 1] += (*start)[k];
+  for (long o = 0; o < p->n; o++) /* start[k] runs on to the end of its list ... */
+    if (id[order[o]] > 0) (*list)[(*start)[id[order[o]]]++] = order[o];
+  for (long k = groups + 1; k > 0; k--)
+    (*start)[k] = (*start)[k - 1]; /* ... which is the start of the next */
+  (*start)[0] = 0;
+  free(order);
+  return 0;
+}
+
+int group_bodies(const Parts *p, Err *err)
+{
+  int bodies = 1;
+  for (long i = 0; i < p->n; i++) {
+    if (p->body[i] < 0 || p->body[i] >= GROUP_BODIES)
+      return err_set(err, "particle %lld: BodyID %d is not in 0..%d", (long long)p->id[i],
+                     (int)p->body[i], GROUP_BODIES - 1);
+    if (p->body[i] >= bodies) bodies = p->body[i] + 1;
+  }
+  return bodies;
+}
+
+int group_is_water(const char *material)
+{
+  static const char *const words[] = {"ice", "water", "h2o"};
+  for (const char *s = material; *s; s += strspn(s, "_-. ")) {
+    size_t length = strcspn(s, "_-. ");
+    for (int k = 0; k < 3; k++)
+      if (length == strlen(words[k]) && !strncasecmp(s, words[k], length)) return 1;
+    s += length;
+  }
+  return 0;
+}
+
+static void centre(Group *g, const Parts *p, const long *list)
+{
+  for (long k = 0; k < g->n; k++) {
+    long i = list[k];
+    for (int a = 0; a < 3; a++)
+      g->x[a] += p->m[i] * p->x[3 * i + a], g->v[a] += p->m[i] * p->v[3 * i + a];
+    g->mass += p->m[i];
+  }
+  for (int a = 0; a < 3; a++) g->x[a] /= g->mass, g->v[a] /= g->mass;
+}
+
+static void contents(Group *g, const Parts *p, const long *list)
+{
+  int bodies = g->bodies;
+  double damage = 0, damaged = 0;
+  for (long k = 0; k < g->n; k++) {
+    long i = list[k];
+    g->volume += p->m[i] / p->rho[i], g->e_th += p->m[i] * p->u[i];
+    g->rho_max = fmax(g->rho_max, p->rho[i]);
+    g->part[p->mat[i] * bodies + p->body[i]] += p->m[i];
+    if (p->damage) damage += p->m[i] * p->damage[i], damaged += p->damage[i] >= 1 ? p->m[i] : 0;
+  }
+  for (int c = 0; c < p->materials; c++)
+    for (int b = 0; b < bodies && group_is_water(p->material[c].name); b++)
+      g->water += g->part[c * bodies + b];
+  g->water /= g->mass, g->rho = g->mass / g->volume;
+  g->radius = cbrt(3 * g->volume / (4 * PI));
+  g->damage = p->damage ? damage / g->mass : NAN, g->damaged = p->damage ? damaged / g->mass : NAN;
+}
+
+static void moments(Group *g, const Parts *p, const long *list)
+{
+  double *i6 = g->inertia;
+  for (long k = 0; k < g->n; k++) {
+    const double *xi = p->x + 3 * list[k], *vi = p->v + 3 * list[k], m = p->m[list[k]];
+    double x = xi[0] - g->x[0], y = xi[1] - g->x[1], z = xi[2] - g->x[2];
+    double vx = vi[0] - g->v[0], vy = vi[1] - g->v[1], vz = vi[2] - g->v[2];
+    g->l[0] += m * (y * vz - z * vy), g->l[1] += m * (z * vx - x * vz),
+        g->l[2] += m * (x * vy - y * vx);
+    i6[0] += m * (y * y + z * z), i6[3] += m * (x * x + z * z), i6[5] += m * (x * x + y * y);
+    i6[1] -= m * x * y, i6[2] -= m * x * z, i6[4] -= m * y * z;
+    g->e_kin += 0.5 * m * (vx * vx + vy * vy + vz * vz);
+  }
+}
+
+/* omega = I^-1 L in the principal frame; a direction without inertia (a single particle, a rod)
+ * does not spin. */
+static int spin(Group *g, Err *err)
+{
+  const double *i = g->inertia;
+  double full[9] = {i[0], i[1], i[2], i[1], i[3], i[4], i[2], i[4], i[5]}, omega2 = 0;
+  gsl_matrix_view m = gsl_matrix_view_array(full, 3, 3);
+  gsl_vector_view value = gsl_vector_view_array(g->moment, 3);
+  gsl_matrix *axis = gsl_matrix_alloc(3, 3);
+  gsl_eigen_symmv_workspace *w = gsl_eigen_symmv_alloc(3);
+  int failed = !axis || !w || gsl_eigen_symmv(&m.matrix, &value.vector, axis, w) ||
+               gsl_eigen_symmv_sort(&value.vector, axis, GSL_EIGEN_SORT_VAL_ASC);
+  for (int k = 0; k < 3 && !failed; k++) {
+    for (int a = 0; a < 3; a++) g->axis[k][a] = gsl_matrix_get(axis, (size_t)a, (size_t)k);
+    double *e = g->axis[k], along = e[0] * g->l[0] + e[1] * g->l[1] + e[2] * g->l[2];
+    if (g->moment[k] <= 1e-12 * g->moment[2] || g->moment[2] <= 0) continue;
+    for (int a = 0; a < 3; a++) g->omega[a] += along / g->moment[k] * e[a];
+    g->e_rot += 0.5 * along * along / g->moment[k];
+  }
+  for (int a = 0; a < 3; a++) omega2 += g->omega[a] * g->omega[a];
+  g->period = omega2 > 0 ? 2 * PI / sqrt(omega2) : INFINITY;
+  if (axis) gsl_matrix_free(axis);
+  if (w) gsl_eigen_symmv_free(w);
+  return failed ? err_set(err, "principal axes not found") : 0;
+}
+
+/* Radii that hold 50, 90, 99 % of the mass. */
+static int radii(Group *g, const Parts *p, const long *list, Err *err)
+{
+  double *r = malloc((size_t)g->n * sizeof *r), sum = 0;
+  size_t *order = malloc((size_t)g->n * sizeof *order);
+  for (long k = 0; k < g->n && r && order; k++) { r[k] = group_apart(p->x + 3 * list[k], g->x); }
+  if (r && order) gsl_sort_index(order, r, 1, (size_t)g->n);
+  for (long k = 0; k < g->n && r && order; k++) {
+    double before = sum / g->mass, now = (sum += p->m[list[order[k]]]) / g->mass,
+           last = k == g->n - 1;
+    if (before < 0.50 && (now >= 0.50 || last)) g->r50 = r[order[k]];
+    if (before < 0.90 && (now >= 0.90 || last)) g->r90 = r[order[k]];
+    if (before < 0.99 && (now >= 0.99 || last)) g->r99 = r[order[k]];
+  }
+  int failed = !r || !order;
+  free(r), free(order);
+  return failed ? err_set(err, "out of memory for %ld particles", g->n) : 0;
+}
+
+static int own_gravity(Group *g, const Parts *p, const long *list, double theta, Err *err)
+{
+  double *phi = malloc((size_t)g->n * sizeof *phi);
+  if (!phi) return err_set(err, "out of memory for %ld particles", g->n);
+  int failed = group_potential(p, list, NULL, g->n, theta, phi, err);
+  g->e_pot = 0;
+  for (long k = 0; k < g->n && !failed; k++) g->e_pot += 0.5 * p->m[list[k]] * phi[k];
+  free(phi);
+  return failed;
+}
+
+int group_measure(Group *g, const Parts *p, const long *list, long n, int bodies, double theta,
+                  Err *err)
+{
+  memset(g, 0, sizeof *g);
+  g->n = n, g->bodies = bodies, g->e_pot = NAN;
+  g->part = calloc((size_t)(bodies * p->materials + 1), sizeof *g->part);
+  if (!g->part) return err_set(err, "out of memory");
+  if (n == 0) return 0;
+  centre(g, p, list), contents(g, p, list), moments(g, p, list);
+  if (!spin(g, err) && !radii(g, p, list, err) &&
+      (theta < 0 || !own_gravity(g, p, list, theta, err)))
+    return 0;
+  group_free(g);
+  return -1;
+}
+
+int group_system(Group *g, const Parts *p, double theta, Err *err)
+{
+  int bodies = group_bodies(p, err);
+  if (bodies < 0) return -1;
+  long *order = malloc((size_t)(p->n + 1) * sizeof *order);
+  if (!order) return err_set(err, "out of memory for %ld particles", p->n);
+  int failed = group_order(p, order, err) || group_measure(g, p, order, p->n, bodies, theta, err);
+  free(order);
+  return failed ? -1 : 0;
+}
+
+double group_apart(const double a[3], const double b[3])
+{
+  double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+  return sqrt(x * x + y * y + z * z);
+}
+
+void group_free(Group *g)
+{
+  free(g->part);
+  g->part = NULL;
+}
+
+/* In tree order: positions, masses and supports of list, made light where they shall not act. */
+static void gather(const Parts *p, const long *list, const unsigned char *in, const long *order,
+                   long n, double *y)
+{
+  double *x = y, *m = y + 3 * n, *h = y + 4 * n;
+  for (long k = 0; k < n; k++) {
+    long i = list[order[k]];
+    memcpy(x + 3 * k, p->x + 3 * i, 3 * sizeof *x);
+    m[k] = p->m[i] * (in && !in[order[k]] ? GHOST : 1), h[k] = p->h[i];
+  }
+}
+
+int group_potential(const Parts *p, const long *list, const unsigned char *in, long n, double theta,
+                    double *phi, Err *err)
+{
+  if (n <= 0) return 0;
+  GravityOptions o = {.theta = theta, .G = UNIT_G};
+  Tree tree = {0};
+  long *order = malloc((size_t)n * sizeof *order);
+  int64_t *id = calloc((size_t)n, sizeof *id);
+  double *y = calloc((size_t)n, 9 * sizeof *y), *x = y, *m = y + 3 * n, *h = y + 4 * n,
+         *a = y + 5 * n, *f = y + 8 * n;
+  int failed = !order || !id || !y ? err_set(err, "out of memory for %ld particles", n) : 0;
+  for (long k = 0; k < n && !failed; k++) {
+    id[k] = p->id[list[k]];
+    memcpy(x + 3 * k, p->x + 3 * list[k], 3 * sizeof *x);
+  }
+  if (!failed) failed = tree_order(n, x, id, order, err);
+  if (!failed) gather(p, list, in, order, n, y);
+  if (!failed && n <= DIRECT) failed = gravity_direct(n, x, m, h, UNIT_G, a, f, err);
+  if (!failed && n > DIRECT)
+    failed = tree_build(&tree, n, x, m, h, err) || gravity_tree(&tree, x, m, h, &o, a, f, err);
+  for (long k = 0; k < n && !failed; k++) phi[order[k]] = f[k];
+  tree_free(&tree), free(order), free(id), free(y);
+  return failed;
+}
+
+GroupPair group_pair(const double xa[3], const double va[3], double ma, const double xb[3],
+                     const double vb[3], double mb)
+{
+  GroupPair o = {0};
+  double r[3], v[3], mu = UNIT_G * (ma + mb);
+  for (int a = 0; a < 3; a++) {
+    r[a] = xb[a] - xa[a], v[a] = vb[a] - va[a];
+    o.r += r[a] * r[a], o.v += v[a] * v[a], o.v_r += r[a] * v[a];
+  }
+  o.r = sqrt(o.r), o.v = sqrt(o.v), o.v_r /= o.r;
+  o.v_esc = sqrt(2 * mu / o.r);
+  o.orbit = orbit_of_state(mu, r, v);
+  return o;
+}
+
+/* b/a and c/a of the ellipsoid with these principal moments: a_k^2 ~ I_1 + I_2 + I_3 - 2 I_k. */
+static double axes(const Group *g, int which)
+{
+  double sum = g->moment[0] + g->moment[1] + g->moment[2], a2 = sum - 2 * g->moment[0];
+  return a2 > 0 ? sqrt(fmax(0, (sum - 2 * g->moment[which]) / a2)) : 1;
+}
+
+void group_header(FILE *f, const Parts *p, int bodies)
+{
+#define HEAD(NAME, UNIT, ...) fputs("\t" NAME " [" UNIT "]", f);
+  COLUMNS(HEAD)
+#undef HEAD
+  for (int c = 0; c < p->materials; c++) fprintf(f, "\t%s [%%]", p->material[c].name);
+  for (int b = 0; b < bodies; b++) fprintf(f, "\tfrom_%d [kg]", b);
+  for (int c = 0; c < p->materials; c++)
+    for (int b = 0; b < bodies; b++) fprintf(f, "\t%s_from_%d [kg]", p->material[c].name, b);
+}
+
+void group_row(FILE *f, const Group *g, const Group *s, const Parts *p)
+{
+  int bodies = g->bodies;
+#define CELL(NAME, UNIT, ...) fprintf(f, "\t%.9g", __VA_ARGS__);
+  COLUMNS(CELL)
+#undef CELL
+  for (int c = 0; c < p->materials; c++) {
+    double sum = 0;
+    for (int b = 0; b < bodies; b++) sum += g->part[c * bodies + b];
+    fprintf(f, "\t%.9g", 100 * sum / g->mass);
+  }
+  for (int b = 0; b < bodies; b++) {
+    double sum = 0;
+    for (int c = 0; c < p->materials; c++) sum += g->part[c * bodies + b];
+    fprintf(f, "\t%.9g", sum);
+  }
+  for (int k = 0; k < p->materials * bodies; k++) fprintf(f, "\t%.9g", g->part[k]);
+}

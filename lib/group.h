@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What is known of a set of particles, a fragment, a bound body, a whole system: mass, centre,
+ * motion, size, spin, energies, damage, composition by material and by body of origin. Shared by
+ * fof, clumps and disk: one table of columns. All sums run in the order of the list given, and
+ * group_lists gives ascending particle ids, so results do not depend on the file's order. */
+#ifndef GROUP_H
+#define GROUP_H
+
+#include <stdio.h>
+#include "orbit.h"
+#include "part.h"
+
+typedef struct {
+  long n;
+  double mass, x[3], v[3];     /* kg; centre of mass m, m/s */
+  double volume, rho, rho_max; /* sum m/rho m^3; mass/volume, largest kg/m^3 */
+  double radius, r50, r90,
+      r99; /* of the sphere of this volume; around the centre with 50, 90, 99 % of the mass, m */
+  double l[3];                  /* angular momentum about the own centre, kg m^2/s */
+  double inertia[6];            /* sum m (r^2 delta_ab - r_a r_b), xx xy xz yy yz zz, kg m^2 */
+  double moment[3], axis[3][3]; /* principal moments, ascending, and their directions (rows) */
+  double omega[3], period;      /* I^-1 L rad/s; 2 pi/omega s, infinite without spin */
+  double e_kin, e_th, e_pot;    /* in the own frame; sum m u; own gravity, pairs counted once, J */
+  double e_rot;                 /* 1/2 L . omega, J */
+  double damage,
+      damaged;  /* mass-weighted mean; mass fraction with damage 1; NAN without the field */
+  double water; /* mass fraction of materials named ice, water or h2o (group_is_water) */
+  int bodies;
+  double *part; /* [materials][bodies] mass, kg */
+} Group;
+
+/* Two bodies, seen as points: distance m, speed, radial speed (negative when they approach), mutual
+ * escape speed m/s, and the conic; they are bound when orbit.beta > 0. */
+typedef struct {
+  double r, v, v_r, v_esc;
+  Orbit orbit;
+} GroupPair;
+
+enum { GROUP_BODIES = 1024 };
+
+/* GROUP_FIELDS: what group_measure needs. */
+#define GROUP_FIELDS "id x v m rho u h mat body"
+
+/* group_order: all particles by ascending id, order [n]. */
+int group_order(const Parts *p, long *order, Err *err);
+
+/* group_rank: renumbers the groups id [p->n] = 1..groups (0: none) by descending mass, equal masses
+ * by their lowest particle id; those with fewer than `least` particles become 0. Returns how many
+ * are left, or -1. */
+long group_rank(const Parts *p, int32_t *id, long groups, long least, Err *err);
+
+/* group_lists: particles with id[i] = k in 1..groups are list[start[k] .. start[k+1]-1], by
+ * ascending particle id; malloc'ed. */
+int group_lists(const Parts *p, const int32_t *id, long groups, long **start, long **list,
+                Err *err);
+
+/* group_measure: all of the above for list [n]; *g need not be set before and is released by
+ * group_free. Own gravity by direct sums for few particles, else by the tree with opening angle
+ * theta; theta < 0: e_pot is left NAN. */
+int group_measure(Group *g, const Parts *p, const long *list, long n, int bodies, double theta,
+                  Err *err);
+void group_free(Group *g);
+
+/* group_system: the same for all particles, by ascending id. */
+int group_system(Group *g, const Parts *p, double theta, Err *err);
+
+/* group_apart: |a - b|. */
+double group_apart(const double a[3], const double b[3]);
+
+/* group_potential: phi [n] J/kg at particles list [n] made by those with in[k] != 0 (NULL: all),
+ * without self-energy. */
+int group_potential(const Parts *p, const long *list, const unsigned char *in, long n, double theta,
+                    double *phi, Err *err);
+
+/* group_pair: the two-body orbit of b about a. */
+GroupPair group_pair(const double xa[3], const double va[3], double ma, const double xb[3],
+                     const double vb[3], double mb);
+
+/* group_bodies: 1 + the largest BodyID, which must lie in 0..GROUP_BODIES-1; else -1. */
+int group_bodies(const Parts *p, Err *err);
+
+/* group_is_water: whether a part of the name (between _ - or .) is ice, water or h2o. */
+int group_is_water(const char *material);
+
+/* group_header, group_row: tab-separated columns, each with a tab in front, no newline; positions
+ * and velocities relative to `system`. `name [unit]` is the name of a column. */
+void group_header(FILE *f, const Parts *p, int bodies);
+void group_row(FILE *f, const Group *g, const Group *system, const Parts *p);
+
+#endif
