@@ -79,6 +79,7 @@ void part_free(Parts *p)
   free_lines(p->parameter, p->parameters);
   free(p->collision);
   free(p->body_info);
+  free(p->run);
   for (int i = 0; i < p->extras; i++) {
     if (p->extra[i].type > 0) H5Tclose((hid_t)p->extra[i].type);
     free(p->extra[i].data);
@@ -262,6 +263,7 @@ static PartNumber **numbers(Parts *p, const char *group, int **n)
 {
   if (!strcmp(group, "collision")) return *n = &p->collisions, &p->collision;
   if (!strcmp(group, "body")) return *n = &p->body_infos, &p->body_info;
+  if (!strcmp(group, "run")) return *n = &p->runs, &p->run;
   return NULL;
 }
 

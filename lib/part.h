@@ -18,7 +18,7 @@ typedef struct {
 typedef struct {
   char name[64];
   double value;
-} PartNumber; /* a named number: an attribute of /Collision or /Body */
+} PartNumber; /* a named number: an attribute of /Collision, /Body or /Run */
 
 typedef struct {
   char name[128]; /* dataset name under /PartType0 */
@@ -53,6 +53,8 @@ typedef struct {
   PartNumber *body_info; /* [body_infos] attributes of /Body: Radius0, RadiusMax0, ... numbered by
                             body id */
   int body_infos;
+  PartNumber *run; /* [runs] attributes of /Run: where a run of the solver stands */
+  int runs;
   PartExtra *extra; /* [extras] unknown fields, carried through */
   int extras;
 } Parts;
