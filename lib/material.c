@@ -40,11 +40,9 @@ static const Law EOS[] = {EOS_LAWS(EOS_ENTRY)};
 static const Law YIELD[] = {{NULL, 0}, YIELD_LAWS(YIELD_ENTRY)};
 static const Law DAMAGE[] = {{NULL, 0}, DAMAGE_LAWS(DAMAGE_ENTRY)};
 
-/* What strength holds besides the yield law. */
-static const CfgRow STRENGTH[] = {
-    {"shear_modulus", CFG_REAL, offsetof(Material, mu), "Pa", NULL, 0, 1e30, "shear modulus"},
-    {"melt_energy", CFG_REAL, offsetof(Material, melt), "J/kg", "0", 0, 1e30,
-     "specific energy of the melt; 0: strength does not depend on u"}};
+#define STRENGTH_ROW(KEY, MEMBER, UNIT, VALUE, MIN, MAX, MEANING)                                  \
+  {#KEY, CFG_REAL, offsetof(Material, MEMBER), UNIT, VALUE, MIN, MAX, MEANING},
+static const CfgRow STRENGTH[] = {MATERIAL_STRENGTH_ROWS(STRENGTH_ROW)};
 
 /* A group of the file: its name, the words of `form`, the laws, where form and parameters go. */
 typedef struct {

@@ -8,6 +8,13 @@
 #include "yield.h"
 #include "damage.h"
 
+/* What the group `strength` holds besides its law: X(key, member, SI unit, default, min, max, meaning). */
+/* clang-format off */
+#define MATERIAL_STRENGTH_ROWS(X) \
+  X(shear_modulus, mu,   "Pa",   NULL, 0, 1e30, "shear modulus") \
+  X(melt_energy,   melt, "J/kg", "0",  0, 1e30, "specific energy of the melt; 0: strength does not depend on u")
+/* clang-format on */
+
 typedef struct {
   Eos eos;       /* equation of state */
   double mu;     /* shear modulus [Pa]; 0: a fluid, no deviatoric stress */

@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Prints the tables of docs/ that live in headers: `tables schema` the particle fields, `tables laws` the parameters of the
+ * material laws. Compiled and run by docs/generate. */
+#include <stdio.h>
+#include <string.h>
+#include "../lib/fields.h"
+#include "../physics/material.h"
+
+#define FIELD(TYPE, MEMBER, WIDTH, DATASET, UNIT, MADE_BY, MEANING)                                \
+  field(DATASET, WIDTH, #TYPE, UNIT, MADE_BY, MEANING);
+#define ROW(MEMBER, UNIT, VALUE, MIN, MAX, MEANING) row(#MEMBER, UNIT, VALUE, MIN, MAX, MEANING);
+#define STRENGTH_ROW(KEY, MEMBER, UNIT, VALUE, MIN, MAX, MEANING)                                  \
+  row(#KEY, UNIT, VALUE, MIN, MAX, MEANING);
+#define EOS_TABLE(CAPITAL, NAME)    law("eos", #NAME), EOS_##CAPITAL##_ROWS(ROW);
+#define YIELD_TABLE(CAPITAL, NAME)  law("strength", #NAME), YIELD_##CAPITAL##_ROWS(ROW);
+#define DAMAGE_TABLE(CAPITAL, NAME) law("damage", #NAME), DAMAGE_##CAPITAL##_ROWS(ROW);
+
+static void field(const char *dataset, int width, const char *type, const char *unit,
+                  const char *made_by, const char *meaning)
+{
+  char shape[16] = "(N)";
+  if (width > 1) snprintf(shape, sizeof shape, "(N, %d)", width);
+  type = strcmp(type, "double") ? type : "float64";
+  printf("| `%s` | %s | %.*s | %s | %s | %s |\n", dataset, shape, (int)strcspn(type, "_"), type,
+         unit, made_by, meaning);
+}
+
+static void row(const char *name, const char *unit, const char *value, double min, double max,
+                const char *meaning)
+{
+  printf("| `%s` | %s | %s | ", name, unit, value ? value : "");
+  if (min <= max) printf("%g .. %g", min, max);
+  printf(" | %s |\n", meaning);
+}
+
+static void table(void)
+{
+  printf("\n| key | unit | default | range | meaning |\n|---|---|---|---|---|\n");
+}
+
+static void law(const char *group, const char *form)
+{
+  printf("\n### %s: `form = \"%s\"`\n", group, form);
+  table();
+}
+
+static void schema(void)
+{
+  static const char HEAD[] = "| dataset | shape | type | unit | made by | meaning |\n"
+                             "|---|---|---|---|---|---|";
+  printf("## Particle fields, `/PartType0`\n\n%s\n", HEAD);
+  FIELDS(FIELD)
+  printf("\n## Only in checkpoints\n\n%s\n", HEAD);
+  CHECKPOINT_FIELDS(FIELD)
+}
+
+static void laws(void)
+{
+  EOS_LAWS(EOS_TABLE)
+  printf("\n### strength: with every law\n");
+  table();
+  MATERIAL_STRENGTH_ROWS(STRENGTH_ROW)
+  YIELD_LAWS(YIELD_TABLE)
+  DAMAGE_LAWS(DAMAGE_TABLE)
+}
+
+int main(int argc, char **argv)
+{
+  if (argc == 2 && !strcmp(argv[1], "schema"))
+    schema();
+  else if (argc == 2 && !strcmp(argv[1], "laws"))
+    laws();
+  else
+    return 2;
+  return fflush(stdout) ? 1 : 0;
+}
