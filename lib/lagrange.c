@@ -139,21 +139,16 @@ static int start(Shells *s, const StructureLayer *layer, int layers, long cells,
   return 0;
 }
 
-/* A cell's state moved along its isentrope and hydrostatically to radius r, where `m` lies inside.
- */
-static StructureNode node(const Cell *cell, double from, double r, double m)
+/* The state at an edge of a cell, where m lies inside: the pressure by the weight of half the cell, as in step 1 (at the centre
+ * p_c = p + 2 pi/3 G rho^2 r^2), the density on the cell's isentrope by Newton's method. */
+static StructureNode node(const Cell *cell, double from, double r, double m, double half)
 {
-  double g = r > 0 ? UNIT_G * m / (r * r) : 0, gc = UNIT_G * m / (from * from);
-  double dp = r > 0 ? -cell->rho * (r > from ? g : gc) * (r - from)
-                    : 2 * PI / 3 * UNIT_G * pow(cell->rho * from, 2);
-  double rho = cell->rho + dp / (cell->c * cell->c);
-  return (StructureNode){r,
-                         m,
-                         rho,
-                         fmax(cell->p + dp, 0),
-                         cell->u + cell->p / (rho * cell->rho) * (rho - cell->rho),
-                         g,
-                         cell->layer};
+  double g = r > 0 ? UNIT_G * m / (r * r) : 0;
+  double p = cell->p +
+             (r > 0 ? g * half / (4 * PI * r * r) : 2 * PI / 3 * UNIT_G * pow(cell->rho * from, 2));
+  Cell c = *cell;
+  for (int k = 0; k < 4; k++) compress(&c, c.rho + (p - c.p) / (c.c * c.c));
+  return (StructureNode){r, m, c.rho, fmax(p, 0), c.u, g, c.c, c.layer};
 }
 
 /* Nodes at the middle of the cells (of volume and mass) and at both ends of each layer. */
@@ -166,11 +161,11 @@ static int result(const Shells *s, Structure *out, int layers, Err *err)
     const Cell *c = s->cell + k;
     double mid = cbrt((pow(s->r[k], 3) + pow(s->r[k + 1], 3)) / 2), m = s->m[k] + c->m / 2;
     if (k == 0 || k == s->end[layer - 1])
-      out->node[out->n++] = node(c, mid, s->r[k], s->m[k]), layer++;
+      out->node[out->n++] = node(c, mid, s->r[k], s->m[k], c->m / 2), layer++;
     out->node[out->n++] =
-        (StructureNode){mid, m, c->rho, push(c), c->u, UNIT_G * m / (mid * mid), c->layer};
+        (StructureNode){mid, m, c->rho, push(c), c->u, UNIT_G * m / (mid * mid), c->c, c->layer};
     if (k + 1 == s->end[layer - 1]) {
-      out->node[out->n++] = node(c, mid, s->r[k + 1], s->m[k + 1]);
+      out->node[out->n++] = node(c, mid, s->r[k + 1], s->m[k + 1], -c->m / 2);
       out->first[layer] = out->n;
     }
   }

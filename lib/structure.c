@@ -106,11 +106,11 @@ static int on_isentrope(const Body *b, int k, double p, double y[2])
   return p > 0 ? integrate(isentrope, b->layer[k].eos, 2, scale, 0, p, y) : GSL_SUCCESS;
 }
 
-static void record(Structure *s, int layer, double third, const double y[4])
+static void record(const Body *b, int layer, double third, const double y[4])
 {
-  double m = third * third * third;
-  s->node[s->n++] = (StructureNode){
-      y[0], m, y[2], fmax(y[1], 0), y[3], y[0] > 0 ? UNIT_G * m / (y[0] * y[0]) : 0, layer};
+  double m = third * third * third, g = y[0] > 0 ? UNIT_G * m / (y[0] * y[0]) : 0;
+  double c = eos_eval(b->layer[layer].eos, y[2], y[3], 0).cs;
+  b->out->node[b->out->n++] = (StructureNode){y[0], m, y[2], fmax(y[1], 0), y[3], g, c, layer};
 }
 
 /* One layer from s0 to s1; with a record in equal steps of s. */
@@ -123,7 +123,7 @@ static int cross(const Body *b, int k, double s0, double s1, double y[4])
     double to = i == n - 1 ? s1 : inner + (s1 - inner) * (double)i / (double)(n - 1);
     int status = integrate(hydrostatic, b->layer[k].eos, 4, scale, from, to, y);
     if (status) return status;
-    if (b->out) record(b->out, k, to, y);
+    if (b->out) record(b, k, to, y);
     from = to;
   }
   return GSL_SUCCESS;
@@ -138,7 +138,7 @@ static double shoot(double centre, void *body)
   for (int k = 0; k < b->layers; k++) {
     double end = cbrt(inside += b->layer[k].mass);
     if (on_isentrope(b, k, y[1], y + 2)) return NAN;
-    if (b->out) record(b->out, k, s, y);
+    if (b->out) record(b, k, s, y);
     if (k == 0) { /* p = p_c - 2 pi/3 G rho^2 r^2 near the centre; the next order is (r/R)^4 = 1e-16
                      of it */
       s = 1e-4 * end;
@@ -217,50 +217,63 @@ void structure_free(Structure *s)
   *s = (Structure){0};
 }
 
-/* The state at fraction f from a to b, m^(1/3) and the others linear. */
-static StructureNode between(const StructureNode *a, const StructureNode *b, double f)
+/* q = m^(1/3), r, rho, p, u of a node and their slopes d against m^(1/3): mass, hydrostatics, isentrope. */
+enum { THIRD, RADIUS, RHO, PRESSURE, ENERGY, QUANTITIES };
+
+static void slopes(const StructureNode *a, double q[QUANTITIES], double d[QUANTITIES])
 {
-  double e = 1 - f, s = e * cbrt(a->m) + f * cbrt(b->m);
-  StructureNode x = {e * a->r + f * b->r,
-                     s * s * s,
-                     e * a->rho + f * b->rho,
-                     e * a->p + f * b->p,
-                     e * a->u + f * b->u,
-                     0,
-                     a->layer};
-  x.g = x.r > 0 ? UNIT_G * x.m / (x.r * x.r) : 0;
-  return x;
+  double s = cbrt(a->m), c2 = a->cs * a->cs;
+  q[THIRD] = s, q[RADIUS] = a->r, q[RHO] = a->rho, q[PRESSURE] = a->p, q[ENERGY] = a->u;
+  d[THIRD] = 1;
+  d[RADIUS] = a->r > 0 ? 3 * s * s / (4 * PI * a->r * a->r * a->rho) : cbrt(3 / (4 * PI * a->rho));
+  d[PRESSURE] = -a->rho * a->g * d[RADIUS];
+  d[RHO] = d[PRESSURE] / c2;
+  d[ENERGY] = d[PRESSURE] * a->p / (a->rho * a->rho * c2);
 }
 
-static StructureNode look(const Structure *s, int layer, double want,
-                          double coordinate(const StructureNode *))
+/* Cubic Hermite interpolation over the quantity `over` (THIRD or RADIUS). */
+static StructureNode between(const StructureNode *a, const StructureNode *b, int over, double want)
+{
+  double qa[QUANTITIES], qb[QUANTITIES], da[QUANTITIES], db[QUANTITIES], q[QUANTITIES], step, t, e;
+  slopes(a, qa, da), slopes(b, qb, db);
+  step = qb[over] - qa[over];
+  t = fmin(fmax((want - qa[over]) / step, 0), 1), e = 1 - t;
+  for (int k = 0; k < QUANTITIES; k++)
+    q[k] = e * e * (1 + 2 * t) * qa[k] + t * t * (1 + 2 * e) * qb[k] +
+           e * t * step * (e * da[k] / da[over] - t * db[k] / db[over]);
+  return (StructureNode){q[RADIUS],
+                         pow(q[THIRD], 3),
+                         q[RHO],
+                         q[PRESSURE],
+                         q[ENERGY],
+                         q[RADIUS] > 0 ? UNIT_G * pow(q[THIRD], 3) / (q[RADIUS] * q[RADIUS]) : 0,
+                         e * a->cs + t * b->cs,
+                         a->layer};
+}
+
+static StructureNode look(const Structure *s, int layer, int over, double want)
 {
   long low = s->first[layer], high = s->first[layer + 1] - 1;
-  double a, b;
   while (high - low > 1) {
     long mid = (low + high) / 2;
-    if (coordinate(s->node + mid) <= want)
+    if ((over == RADIUS ? s->node[mid].r : cbrt(s->node[mid].m)) <= want)
       low = mid;
     else
       high = mid;
   }
-  a = coordinate(s->node + low), b = coordinate(s->node + high);
-  return between(s->node + low, s->node + high, fmin(fmax((want - a) / (b - a), 0), 1));
+  return between(s->node + low, s->node + high, over, want);
 }
-
-static double third(const StructureNode *node) { return cbrt(node->m); }
-static double radius(const StructureNode *node) { return node->r; }
 
 StructureNode structure_at_mass(const Structure *s, int layer, double m)
 {
-  return look(s, layer, cbrt(m), third);
+  return look(s, layer, THIRD, cbrt(m));
 }
 
 StructureNode structure_at_radius(const Structure *s, double r)
 {
   int k = 0;
   while (k < s->layers - 1 && s->node[s->first[k + 1]].r < r) k++;
-  return look(s, k, r, radius);
+  return look(s, k, RADIUS, r);
 }
 
 /* Distances from the centre of mass, which is returned too. */

@@ -21,7 +21,7 @@ typedef struct {
 } StructureLayer;
 
 typedef struct {
-  double r, m, rho, p, u, g; /* m, kg inside r, kg/m^3, Pa, J/kg, m/s^2 */
+  double r, m, rho, p, u, g, cs; /* m, kg inside r, kg/m^3, Pa, J/kg, m/s^2, m/s */
   int layer;
 } StructureNode;
 
@@ -42,7 +42,7 @@ int structure_density(const Eos *eos, double u, double *rho, Err *err);
 int structure_solve(Structure *s, const StructureLayer *layer, int layers, long nodes, Err *err);
 void structure_free(Structure *s);
 
-/* structure_at_mass: state at mass m of a layer, interpolated within that layer (clamped to it).
+/* structure_at_mass: state at mass m of a layer, cubic with the exact slopes within that layer (clamped to it).
  * structure_at_radius: the same at radius r, of the layer that holds r. */
 StructureNode structure_at_mass(const Structure *s, int layer, double m);
 StructureNode structure_at_radius(const Structure *s, double r);
