@@ -164,26 +164,32 @@ static int check_range(const Parts *p, const char *file, Err *err)
   return 0;
 }
 
+static int check_thresholds(const Parts *p, const char *file, Err *err)
+{
+  const double *flaw = p->flaw;
+  for (long i = 0; p->nflaw && i < p->n; i++)
+    for (int j = 0; j < p->nflaw[i]; j++, flaw++) {
+      if (!(*flaw > 0 && isfinite(*flaw)))
+        return bad(err, p, file, i, "FlawThresholds", *flaw, "positive and finite");
+      if (j && *flaw < flaw[-1]) return bad(err, p, file, i, "FlawThresholds", *flaw, "ascending");
+    }
+  return 0;
+}
+
 static int check_flaws(const Parts *p, const char *file, Err *err)
 {
-  int64_t k = 0;
-  for (long i = 0; p->nflaw && i < p->n; i++) {
-    if (p->nflaw[i] < 0) return bad(err, p, file, i, "FlawCount", p->nflaw[i], "zero or positive");
-    if (p->nflaw[i] > p->flaws - k) break;
-    for (int64_t end = k + p->nflaw[i], start = k; k < end; k++) {
-      if (!(p->flaw[k] > 0 && isfinite(p->flaw[k])))
-        return bad(err, p, file, i, "FlawThresholds", p->flaw[k], "positive and finite");
-      if (k > start && p->flaw[k] < p->flaw[k - 1])
-        return bad(err, p, file, i, "FlawThresholds", p->flaw[k], "ascending");
-    }
-  }
-  for (long i = 0; p->nact && i < p->n; i++)
-    if (p->nact[i] < 0 || p->nact[i] > (p->nflaw ? p->nflaw[i] : 0))
+  int64_t sum = 0;
+  for (long i = 0; i < p->n; i++) {
+    int32_t count = p->nflaw ? p->nflaw[i] : 0;
+    if (count < 0) return bad(err, p, file, i, "FlawCount", count, "zero or positive");
+    if (p->nact && (p->nact[i] < 0 || p->nact[i] > count))
       return bad(err, p, file, i, "ActiveFlaws", p->nact[i], "in 0..FlawCount");
-  if (p->nflaw && k != p->flaws)
+    sum += count;
+  }
+  if (sum != p->flaws)
     return err_set(err, "'%s': FlawCount does not add up to the %lld rows of FlawThresholds", file,
                    (long long)p->flaws);
-  return 0;
+  return check_thresholds(p, file, err);
 }
 
 static int by_value(const void *a, const void *b)
