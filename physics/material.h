@@ -8,7 +8,8 @@
 #include "yield.h"
 #include "damage.h"
 
-/* What the group `strength` holds besides its law: X(key, member, SI unit, default, min, max, meaning). */
+/* What the group `strength` holds besides its law:
+ * X(key, member, SI unit, default, min, max, meaning). */
 /* clang-format off */
 #define MATERIAL_STRENGTH_ROWS(X) \
   X(shear_modulus, mu,   "Pa",   NULL, 0, 1e30, "shear modulus") \

@@ -104,3 +104,10 @@ lines_of() { for ((k = 0; k < $1; k++)); do echo "$2"; done; }
   rm -r build/lib
   found 'build:0: no object files to look at'
 }
+
+@test "exported names in a folder of the solver" {
+  mkdir -p solver/cpu build/solver/cpu
+  printf '/* SPDX-License-Identifier: GPL-3.0-or-later */\nint cpu_one, backend_b, b_two, other_b;\n' > solver/cpu/b.c
+  gcc -c -o build/solver/cpu/b.o solver/cpu/b.c
+  found 'solver/cpu/b.c:1: exports other_b, not b_...'
+}
