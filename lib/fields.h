@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The particle schema: one row a field. From it come the arrays of Parts, reading and writing, the device copies, the messages
- * about missing fields, docs/schema.md and the tests. Units are SI; arrays are [n] or [n][width].
- * F(type, member, width, dataset, unit, made by, meaning); `made by` names the program that makes the field. */
+/* The particle schema: one row a field. From it come the arrays of Parts, reading and writing, the
+ * device copies, the messages about missing fields, docs/schema.md and the tests. Units are SI;
+ * arrays are [n] or [n][width].
+ * F(type, member, width, dataset, unit, made by, meaning); `made by`: the program that makes it. */
 #ifndef FIELDS_H
 #define FIELDS_H
 
