@@ -140,22 +140,23 @@ static int factor(const char **text, int sign, Unit *u, Err *err)
 {
   char name[LONGEST];
   size_t length = **text == '%' ? 1 : strcspn(*text, "^*/ \t0123456789");
-  int power = 1, k = 0;
+  long power = 1;
+  int k = 0;
   if (length == 0 || length >= sizeof name) return err_set(err, "not a unit: '%.40s'", *text);
   memcpy(name, *text, length);
   name[length] = 0;
   *text += length;
   if (**text == '^') {
     char *end;
-    power = (int)strtol(*text + 1, &end, 10);
+    power = strtol(*text + 1, &end, 10);
     if (end == *text + 1 || power < -9 || power > 9 || power == 0)
       return err_set(err, "not a power: '%.40s'", *text);
     *text = end;
   }
   while (k < COUNT && strcmp(name, NAMES[k])) k++;
   if (k == COUNT) return unknown(name, err);
-  u->factor *= powl(VALUES[k].factor, sign * power);
-  for (int b = 0; b < BASES; b++) u->power[b] += sign * power * VALUES[k].power[b];
+  u->factor *= powl(VALUES[k].factor, (long double)(sign * power));
+  for (int b = 0; b < BASES; b++) u->power[b] += sign * (int)power * VALUES[k].power[b];
   return 0;
 }
 

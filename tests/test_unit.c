@@ -109,6 +109,7 @@ static void refused(void **state)
       {"5m/", "m", "not a unit"},
       {"5m^", "m", "not a power"},
       {"5m^0.5", "m", "not a power"},
+      {"5m^18446744073709551615", "1/m", "not a power"},
       {"5mins", "s", "did you mean 'min'"},
       {"1KM", "m", "did you mean 'km'"},
       {"0.9Merth", "kg", "did you mean 'Mearth'"},
