@@ -32,7 +32,8 @@ static const CfgRow top[] = {
    "mixed: on the CPU gravity interactions in single precision relative to the group, the rest in double"},
   {"density", CFG_CHOICE, AT(density), "continuity|sum|miscible", "continuity", ANY,
    "continuity equation, kernel sum, or kernel sum of the number density"},
-  {"density_floor", CFG_REAL, AT(density_floor), "1", "1e-6", 0, 1, "smallest density, in units of the material's rho0"},
+  {"density_floor", CFG_REAL, AT(density_floor), "1", "1", 0, 1e6,
+   "smallest density, in units of what a lone particle's own kernel makes, m W(0)"},
   {"energy", CFG_CHOICE, AT(energy), "full|isentropic|frozen", "full", ANY,
    "energy equation: all work, compression only (frozen entropy), or none"},
   {"energy_floor", CFG_REAL, AT(energy_floor), "J/kg", "-1e300", ANY, "smallest specific internal energy"},
@@ -47,8 +48,10 @@ static const CfgRow gravity[] = {
   {"G", CFG_REAL, AT(G), "1", "6.67430e-11", 0, 1e30, "constant of gravity in m^3/kg/s^2 (CODATA 2018); 1 in code units"},
 };
 static const CfgRow viscosity[] = {
-  {"alpha", CFG_REAL, AT(alpha), "1", "1", 0, 100, "linear artificial viscosity, with h the full support (001 eq. 32)"},
-  {"beta", CFG_REAL, AT(beta), "1", "2", 0, 100, "quadratic artificial viscosity"},
+  {"alpha", CFG_REAL, AT(alpha), "1", "0.5", 0, 100,
+   "linear artificial viscosity of 001 eq. 32, h the full support: 0.5 is the 1 of codes with half of it"},
+  {"beta", CFG_REAL, AT(beta), "1", "0.5", 0, 100,
+   "quadratic artificial viscosity: 0.5 is the 2 of codes with half the support"},
 };
 static const CfgRow smoothing[] = {
   {"mode", CFG_CHOICE, AT(smoothing), "fixed|density|neighbours", "density", ANY,

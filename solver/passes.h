@@ -16,6 +16,7 @@ typedef struct {
   double dt;                                        /* s */
   int density, energy, smoothing, strength, damage; /* modes, see param.h */
   double neighbours, h_min, h_max, density_floor, energy_floor;
+  double self;                                         /* sigma w(0): the kernel's centre */
   double cfl, acceleration, step_density, step_damage; /* factors of the limits */
   double damping;                                      /* 1/s; 0: none */
   int damping_radial;
@@ -75,14 +76,50 @@ HD Sym passes_jaumann(Sym s, const double *g, double mu)
   return d;
 }
 
+/* passes_rotate: Q S Q^T with Q = exp(R dt), R the spin of the velocity gradient g: exact for rigid rotation (Rodrigues). */
+HD Sym passes_rotate(Sym s, const double *g, double dt)
+{
+  double w[3] = {0.5 * (g[7] - g[5]), 0.5 * (g[2] - g[6]), 0.5 * (g[3] - g[1])}, q[9], t[9];
+  double rate = sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]), c = cos(rate * dt), f, v;
+  const double m[9] = {s.xx, s.xy, s.xz, s.xy, s.yy, s.yz, s.xz, s.yz, s.zz};
+  if (rate == 0) return s;
+  f = sin(rate * dt) / rate, v = (1 - c) / (rate * rate);
+  q[0] = c + v * w[0] * w[0], q[1] = v * w[0] * w[1] - f * w[2], q[2] = v * w[0] * w[2] + f * w[1];
+  q[3] = v * w[0] * w[1] + f * w[2], q[4] = c + v * w[1] * w[1], q[5] = v * w[1] * w[2] - f * w[0];
+  q[6] = v * w[0] * w[2] - f * w[1], q[7] = v * w[1] * w[2] + f * w[0], q[8] = c + v * w[2] * w[2];
+  for (int a = 0; a < 3; a++)
+    for (int b = 0; b < 3; b++)
+      t[3 * a + b] = q[3 * a] * m[b] + q[3 * a + 1] * m[3 + b] + q[3 * a + 2] * m[6 + b];
+  s.xx = t[0] * q[0] + t[1] * q[1] + t[2] * q[2], s.xy = t[0] * q[3] + t[1] * q[4] + t[2] * q[5];
+  s.xz = t[0] * q[6] + t[1] * q[7] + t[2] * q[8], s.yy = t[3] * q[3] + t[4] * q[4] + t[5] * q[5];
+  s.yz = t[3] * q[6] + t[4] * q[7] + t[5] * q[8], s.zz = t[6] * q[6] + t[7] * q[7] + t[8] * q[8];
+  return s;
+}
+
+/* passes_strain_rate: the symmetric part of g. */
+HD Sym passes_strain_rate(const double *g)
+{
+  Sym e = {g[0], 0.5 * (g[1] + g[3]), 0.5 * (g[2] + g[6]), g[4], 0.5 * (g[5] + g[7]), g[8]};
+  return e;
+}
+
+/* passes_elastic: S after dt: half the rotation, Hooke's law for the deviatoric strain, the other half. Second order; a pure
+ * rotation is exact. */
+HD Sym passes_elastic(Sym s, const double *g, double mu, double dt)
+{
+  Sym e = passes_strain_rate(g);
+  double third = (e.xx + e.yy + e.zz) / 3;
+  e.xx -= third, e.yy -= third, e.zz -= third;
+  return passes_rotate(tensor_axpy(passes_rotate(s, g, 0.5 * dt), 2 * mu * dt, e), g, 0.5 * dt);
+}
+
 /* passes_work: (-p div v + S:e)/rho [W/kg] with the stress as damage leaves it (001 eq. 5, 20, 21).
  */
 HD double passes_work(double p, Sym s, double damage, double div, const double *g, double rho,
                       int solid)
 {
   double left = 1 - damage, w = -(p < 0 ? left * p : p) * div;
-  Sym e = {g[0], 0.5 * (g[1] + g[3]), 0.5 * (g[2] + g[6]), g[4], 0.5 * (g[5] + g[7]), g[8]};
-  if (solid) w += left * tensor_dot(s, e);
+  if (solid) w += left * tensor_dot(s, passes_strain_rate(g));
   return w / rho;
 }
 
@@ -182,10 +219,14 @@ HD void pass_drift(const State *s, const Step *k, long i)
   s->h[i] = passes_smoothing(s, k, i);
 }
 
-/* passes_density: rho after dt by continuity. With a kernel sum it is there already. */
+/* passes_density: rho after dt by continuity; with a kernel sum it is there already. Never less than a lone particle's own kernel
+ * makes, m W(0), times density_floor: volumes m/rho of expanding debris stay bounded. */
 HD void passes_density(const State *s, const Step *k, long i)
 {
-  double floor = k->density_floor * eos_rho0(&s->material[s->mat[i]].eos);
+  double h = s->h[i], floor = k->density_floor * k->self * s->m[i] /
+                              (s->dimension == 3   ? h * h * h
+                               : s->dimension == 2 ? h * h
+                                                   : h);
   if (k->density == 0) s->rho[i] *= exp(-s->divv[i] * k->dt);
   if (s->rho[i] < floor) s->rho[i] = floor;
 }
@@ -201,8 +242,7 @@ HD void pass_advance(const State *s, const Step *k, long i)
   Sym old = passes_stress(&s->s[6 * i]), mid = old;
   passes_density(s, k, i);
   if (solid) {
-    Sym half = tensor_axpy(old, 0.5 * k->dt, passes_jaumann(old, g, mu)), now;
-    now = tensor_axpy(old, k->dt, passes_jaumann(half, g, mu));
+    Sym now = passes_elastic(old, g, mu, k->dt);
     passes_keep_stress(&s->s[6 * i], now);
     mid = tensor_scale(tensor_axpy(old, 1, now), 0.5);
   }
@@ -378,8 +418,8 @@ HD int pass_bad(const State *s, long i)
 #define PASSES(X)                                                                                  \
   X(KICK, kick)                                                                                    \
   X(DRIFT, drift)                                                                                  \
-  X(ADVANCE, advance) X(FINISH, finish) X(STILL, still) X(LOCAL, local) X(SAVE, save)              \
-      X(COMBINE, combine)
+  X(ADVANCE, advance)                                                                              \
+  X(FINISH, finish) X(STILL, still) X(LOCAL, local) X(SAVE, save) X(COMBINE, combine)
 
 enum {
 #define PASS_ENUM(CAPITAL, NAME) PASS_##CAPITAL,

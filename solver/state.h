@@ -52,7 +52,7 @@ typedef struct {
   MOVED_FIELDS(STATE_MEMBER)
   WORK_FIELDS(STATE_MEMBER)
 #undef STATE_MEMBER
-      Saved saved[STATE_SLOTS];
+  Saved saved[STATE_SLOTS];
 } State;
 
 #endif
