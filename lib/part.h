@@ -120,7 +120,8 @@ int part_permute(Parts *p, const long *order, Err *err);
 Parts *part_join(const Parts *a, const Parts *b, Err *err);
 
 /* part_history: appends a command line. part_set_number / part_number: named numbers in /Collision
- * ("collision") or /Body ("body"); part_number returns NAN when it is not there. */
+ * ("collision"), /Body ("body") or /Run ("run"); part_number returns NAN when it is not there.
+ * /Run goes with a whole file only: part_select and part_join leave it out. */
 int part_history(Parts *p, const char *command_line, Err *err);
 int part_set_number(Parts *p, const char *group, const char *name, double value, Err *err);
 double part_number(const Parts *p, const char *group, const char *name);

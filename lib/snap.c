@@ -162,8 +162,7 @@ static int put_all(Writer *w, const Parts *p, int checkpoint)
                  hdf_put_strings(w->file, "Parameters", p->parameter, p->parameters, w->err) ||
                  put_numbers(w, "Collision", p->collision, p->collisions) ||
                  put_numbers(w, "Body", p->body_info, p->body_infos) ||
-                 put_numbers(w, "Run", p->run, p->runs) ||
-                 put_particles(w, p, checkpoint)
+                 put_numbers(w, "Run", p->run, p->runs) || put_particles(w, p, checkpoint)
              ? -1
              : 0;
 }
@@ -443,8 +442,8 @@ static int get_all(hid_t file, Parts *p, Err *err)
          hdf_get_strings(file, "History", &p->history, &p->histories, err) ||
          hdf_get_strings(file, "Parameters", &p->parameter, &p->parameters, err) ||
          get_numbers(file, "Collision", p, "collision", err) ||
-         get_numbers(file, "Body", p, "body", err) ||
-         get_numbers(file, "Run", p, "run", err) || get_particles(file, p, err);
+         get_numbers(file, "Body", p, "body", err) || get_numbers(file, "Run", p, "run", err) ||
+         get_particles(file, p, err);
 }
 
 Parts *snap_read(const char *path, Err *err)

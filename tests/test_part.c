@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Particles in memory. Every number of the samples follows from the particle's id, its field and its column, so that after any
- * move each row says by itself where it came from. The loops run over the table: a new field is tested without an edit. */
+/* Particles in memory. Every number of the samples follows from the particle's id, its field and
+ * its column, so that after any move each row says by itself where it came from. The loops run over
+ * the table: a new field is tested without an edit. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -195,7 +196,8 @@ static void check_counts_flaws(void **state)
   REFUSED(p->flaw[3] = 0, "particle 10: FlawThresholds is 0, must be positive and finite");
   REFUSED(p->nflaw[1] = -1, "particle 30: FlawCount is -1, must be zero or positive");
   REFUSED(p->nflaw[1] = 3, "FlawCount does not add up to the 4 rows of FlawThresholds");
-  REFUSED(p->nact = (free(p->nact), NULL); p->nflaw[3] = 1, "FlawCount does not add up to the 4 rows of FlawThresholds");
+  REFUSED(free(p->nact); p->nact = NULL;
+          p->nflaw[3] = 1, "FlawCount does not add up to the 4 rows of FlawThresholds");
   REFUSED(p->nact[1] = 3, "particle 30: ActiveFlaws is 3, must be in 0..FlawCount");
   REFUSED(p->nact[0] = -1, "particle 40: ActiveFlaws is -1, must be in 0..FlawCount");
 }
@@ -236,7 +238,8 @@ static void select_nothing_is_no_error(void **state)
   part_free(q);
 }
 
-/* A permutation and its inverse are the identity; in between each row is whole and where order says. */
+/* A permutation and its inverse are the identity; in between each row is whole and where order
+ * says. */
 static void permute_moves_rows_whole(void **state)
 {
   (void)state;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Whole or not at all: what is left in the folder after success, failure and a killed predecessor; streams, devices and pipes. */
+/* Whole or not at all: what is left in the folder after success, failure and a killed predecessor;
+ * streams, devices and pipes. */
 #define _XOPEN_SOURCE 700
 #include <dirent.h>
 #include <errno.h>
@@ -20,12 +21,13 @@
 
 #include "lib/spool.h"
 
-static char folder[64]; /* of one test; set by setup */
+static char folder[4096]; /* of one test */
+static const char *given; /* $TMPDIR as main found it; the tests set it to their folder */
 
 static int setup(void **state)
 {
   (void)state;
-  strcpy(folder, "/tmp/breccia-spool.XXXXXX");
+  snprintf(folder, sizeof folder, "%s/breccia-spool.XXXXXX", given ? given : "/tmp");
   return mkdtemp(folder) && !chdir(folder) && !setenv("TMPDIR", folder, 1) ? 0 : -1;
 }
 
@@ -42,7 +44,7 @@ static int files(void)
 static int teardown(void **state)
 {
   (void)state;
-  char command[128];
+  char command[4200];
   snprintf(command, sizeof command, "rm -rf '%s'", folder);
   return chdir("/") || system(command);
 }
@@ -303,6 +305,8 @@ static void named_input(void **state)
 
 int main(void)
 {
+  char kept[2048];
+  if (getenv("TMPDIR")) given = strncat(strcpy(kept, ""), getenv("TMPDIR"), sizeof kept - 1);
 #define T(NAME) cmocka_unit_test_setup_teardown(NAME, setup, teardown)
   const struct CMUnitTest tests[] = {
       T(text_appears_whole_and_alone),
