@@ -58,6 +58,7 @@ $B/libbreccia.a $B/libsolver.a:
 	ar rc $@ $^
 
 $B/solver/cpu/%.o $B/lib/gravity.o $B/lib/ngb.o: MATH += $(LOOPS)
+$B/lib/gravity.o $B/lib/ngb.o: MATH += -ffp-contract=fast
 $B/%.o: %.c $B/flags
 	@mkdir -p $(@D)
 	$(CC) $(cpp) $(cflags) -MMD -MP -c -o $@ $<

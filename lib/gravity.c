@@ -24,8 +24,13 @@ typedef struct {
 } Scale;
 
 typedef struct {
-  int32_t *accept, *open; /* nodes; leaves in tree order */
-  long accepted, opened, particles, room;
+  int32_t first, end;
+} Range;
+
+typedef struct {
+  int32_t *node; /* accepted */
+  Range *range;  /* particles of opened leaves, ascending; adjacent leaves are one range */
+  long nodes, ranges, particles, room;
 } Walk;
 
 static inline float root_f(float x) { return sqrtf(x); }
@@ -40,42 +45,38 @@ static inline double root_d(double x) { return sqrt(x); }
 #define NAME(x) x##_d
 #include "gravity_pair.h"
 
-static inline double sq(double x) { return x * x; }
-
-static double box_to_point(const TreeGroup *g, const double p[3])
+/* Room for one more entry in each list. */
+static int more_room(Walk *w)
 {
-  double d2 = 0;
-  for (int d = 0; d < 3; d++) d2 += sq(fmax(0, fmax(g->lo[d] - p[d], p[d] - g->hi[d])));
-  return d2;
-}
-
-static double box_to_box(const TreeGroup *g, const TreeNode *p)
-{
-  double d2 = 0;
-  for (int d = 0; d < 3; d++) d2 += sq(fmax(0, fmax(g->lo[d] - p->hi[d], p->lo[d] - g->hi[d])));
-  return d2;
+  if (w->nodes < w->room && w->ranges < w->room) return 0;
+  const long room = 2 * w->room + 1024;
+  int32_t *node = realloc(w->node, (size_t)room * sizeof *node);
+  if (node) w->node = node;
+  Range *range = realloc(w->range, (size_t)room * sizeof *range);
+  if (range) w->range = range;
+  if (!node || !range) return -1;
+  w->room = room;
+  return 0;
 }
 
 static int walk_tree(Walk *w, const Tree *t, const TreeGroup *g, double theta)
 {
-  const double itheta = theta > 0 ? 1 / theta : INFINITY;
-  w->accepted = w->opened = w->particles = 0;
+  const float itheta = theta > 0 ? (float)(1 / theta) : INFINITY, h = (float)(g->hmax / t->edge);
+  float lo[3], hi[3];
+  tree_outward(t, g->lo, g->hi, lo, hi);
+  w->nodes = w->ranges = w->particles = 0;
   for (int32_t k = 0; k < t->nodes;) {
-    const TreeNode *p = t->node + k;
-    if (w->accepted + w->opened >= w->room) {
-      long room = 2 * w->room + 1024;
-      int32_t *accept = realloc(w->accept, (size_t)room * sizeof *accept);
-      if (accept) w->accept = accept;
-      int32_t *open = realloc(w->open, (size_t)room * sizeof *open);
-      if (open) w->open = open;
-      if (!accept || !open) return -1;
-      w->room = room;
-    }
-    if (p->count > 1 && box_to_point(g, p->com) > sq(p->size * itheta) &&
-        box_to_box(g, p) > sq(0.5 * (g->hmax + p->hmax))) {
-      w->accept[w->accepted++] = k, k = p->skip;
-    } else if (p->leaf) {
-      w->open[w->opened++] = k, w->particles += p->count, k = p->skip;
+    const TreeWalk *p = t->walk + k;
+    const float far = p->size * itheta, soft = 0.5f * (h + p->hmax);
+    if (more_room(w)) return -1;
+    if (p->count > 1 && tree_gap2(lo, hi, p->com, p->com) > far * far &&
+        tree_gap2(lo, hi, p->lo, p->hi) > soft * soft * 1.00001f) {
+      w->node[w->nodes++] = k, k = p->skip;
+    } else if (p->skip == k + 1) {
+      const int adjacent = w->ranges && w->range[w->ranges - 1].end == p->first;
+      if (!adjacent) w->range[w->ranges++].first = p->first;
+      w->range[w->ranges - 1].end = p->first + p->count;
+      w->particles += p->count, k = p->skip;
     } else {
       k++;
     }
@@ -88,7 +89,7 @@ int gravity_tree(const Tree *t, const double *x, const double *m, const double *
 {
   const Bodies p = {x, m, h, a, phi};
   const Scale s = {
-      {0}, t->edge, t->node[0].mass > 0 ? t->node[0].mass : 1, o->G, o->single ? 1e-10 : 0};
+      {0}, t->edge, t->node[0].mass > 0 ? t->node[0].mass : 1, o->G, o->single ? 1e-10 : 1e-80};
   int failed = 0;
 #pragma omp parallel reduction(| : failed)
   {
@@ -103,7 +104,7 @@ int gravity_tree(const Tree *t, const double *x, const double *m, const double *
                      : group_d(&s, &p, t, g, &w, &nodes_d, &parts_d)))
         failed = 1;
     }
-    free(w.accept), free(w.open);
+    free(w.node), free(w.range);
     free(nodes_f.all), free(parts_f.all), free(nodes_d.all), free(parts_d.all);
   }
   return failed ? err_set(err, "cannot sum the gravity of %ld particles: no memory", t->n) : 0;
@@ -114,7 +115,7 @@ int gravity_direct(long n, const double *x, const double *m, const double *h, do
 {
   enum { SHARE = 64 };
   const Bodies p = {x, m, h, a, phi};
-  const Scale s = {.length = 1, .mass = 1, .G = G};
+  const Scale s = {.length = 1, .mass = 1, .G = G, .near = 1e-80};
   int failed = 0;
 #pragma omp parallel reduction(| : failed)
   {

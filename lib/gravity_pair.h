@@ -52,15 +52,19 @@ static void NAME(pack_nodes)(NAME(List) * l, const Scale *s, const TreeNode *nod
 /* Appends particles b .. e-1. */
 static void NAME(pack_particles)(NAME(List) * l, const Scale *s, const Bodies *p, long b, long e)
 {
-  const double im = 1 / s->mass, il = 1 / s->length;
-  const long to = l->n - b;
-  for (long i = b; i < e; i++) {
-    l->x[to + i] = (REAL)((p->x[3 * i] - s->origin[0]) * il);
-    l->y[to + i] = (REAL)((p->x[3 * i + 1] - s->origin[1]) * il);
-    l->z[to + i] = (REAL)((p->x[3 * i + 2] - s->origin[2]) * il);
-    l->m[to + i] = (REAL)(p->m[i] * im);
-    l->h[to + i] = p->h ? (REAL)(0.5 * p->h[i] * il) : 0;
+  const double im = 1 / s->mass, il = 1 / s->length, hl = 0.5 * il;
+  const double ox = s->origin[0], oy = s->origin[1], oz = s->origin[2];
+  const double *restrict px = p->x + 3 * b, *restrict pm = p->m + b,
+                         *restrict ph = p->h ? p->h + b : NULL;
+  REAL *restrict x = l->x + l->n, *restrict y = l->y + l->n, *restrict z = l->z + l->n;
+  REAL *restrict m = l->m + l->n, *restrict h = l->h + l->n;
+  for (long i = 0; i < e - b; i++) {
+    x[i] = (REAL)((px[3 * i] - ox) * il);
+    y[i] = (REAL)((px[3 * i + 1] - oy) * il);
+    z[i] = (REAL)((px[3 * i + 2] - oz) * il);
+    m[i] = (REAL)(pm[i] * im);
   }
+  for (long i = 0; i < e - b; i++) h[i] = ph ? (REAL)(ph[i] * hl) : 0;
   l->n += e - b;
 }
 
@@ -90,7 +94,8 @@ INLINE void NAME(from_nodes)(const NAME(List) * l, REAL x, REAL y, REAL z, int p
   f[0] += ax, f[1] += ay, f[2] += az, f[3] += phi;
 }
 
-/* The same for particles; h: half the target's support. near: pairs with s below it do not act. */
+/* The same for particles; h: half the target's support; near: the smallest s, pairs below it do not
+ * act. */
 INLINE void NAME(from_particles)(const NAME(List) * l, REAL x, REAL y, REAL z, REAL h, REAL near,
                                  int potential, REAL f[4])
 {
@@ -102,10 +107,10 @@ INLINE void NAME(from_particles)(const NAME(List) * l, REAL x, REAL y, REAL z, R
   for (long j = 0; j < n; j++) {
     REAL dx = x - px[j], dy = y - py[j], dz = z - pz[j], hij = h + ph[j];
     REAL r = NAME(root)(dx * dx + dy * dy + dz * dz), s = r > hij ? r : hij;
-    REAL mi = s > near ? pm[j] : 0, i1 = 1 / (s > near ? s : 1), q = r * i1;
-    REAL c = mi * i1 * i1 * i1 * SOFT_FORCE(q);
+    REAL i1 = 1 / (s > near ? s : near), q = r * i1, mi = pm[j] * i1;
+    REAL c = mi * (i1 * i1) * SOFT_FORCE(q);
     ax -= c * dx, ay -= c * dy, az -= c * dz;
-    if (potential) phi -= mi * i1 * SOFT_POTENTIAL(q);
+    if (potential) phi -= s > near ? mi * SOFT_POTENTIAL(q) : 0;
   }
   f[0] += ax, f[1] += ay, f[2] += az, f[3] += phi;
 }
@@ -141,14 +146,12 @@ static int NAME(group)(const Scale *tree, const Bodies *p, const Tree *t, const 
   Scale s = *tree;
   long self = -1;
   for (int d = 0; d < 3; d++) s.origin[d] = 0.5 * (g->lo[d] + g->hi[d]);
-  if (NAME(reserve)(nodes, w->accepted) || NAME(reserve)(parts, w->particles)) return -1;
-  NAME(pack_nodes)(nodes, &s, t->node, w->accept, w->accepted);
+  if (NAME(reserve)(nodes, w->nodes) || NAME(reserve)(parts, w->particles)) return -1;
+  NAME(pack_nodes)(nodes, &s, t->node, w->node, w->nodes);
   parts->n = 0;
-  for (long k = 0; k < w->opened; k++) {
-    const TreeNode *leaf = t->node + w->open[k];
-    if (leaf->first <= g->first && g->first < leaf->first + leaf->count)
-      self = parts->n + g->first - leaf->first;
-    NAME(pack_particles)(parts, &s, p, leaf->first, leaf->first + (long)leaf->count);
+  for (const Range *r = w->range; r < w->range + w->ranges; r++) {
+    if (r->first <= g->first && g->first < r->end) self = parts->n + g->first - r->first;
+    NAME(pack_particles)(parts, &s, p, r->first, r->end);
   }
   NAME(pad)(parts);
   NAME(evaluate)(&s, p, g->first, g->first + (long)g->count, nodes, parts, self);

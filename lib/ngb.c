@@ -10,20 +10,26 @@
 #include "ngb.h"
 
 enum { PAD = 32 };
+
 #define INLINE static inline __attribute__((always_inline))
 
 typedef struct {
-  double lo[3], hi[3];
+  float lo[3], hi[3]; /* as in TreeWalk */
 } Box;
+
+typedef struct {
+  int32_t first, end;
+} Range;
 
 typedef struct NgbShare {
   uint32_t *list; /* of all groups of this thread */
   int64_t n, room;
-  float *pack;   /* 7 rows of [width]: x y z h, and x y z of the second set */
-  uint8_t *hit;  /* [width] 0 no, 1 perhaps, 2 yes */
-  uint32_t *j;   /* [width] the particles packed */
-  int32_t *leaf; /* [leaves] found by the walk */
-  int64_t leaf_room;
+  float *pack;  /* 7 rows of [width]: x y z h, and x y z of the second set */
+  uint8_t *hit; /* [width] 0 no, 1 perhaps, 2 yes */
+  uint32_t *j;  /* [width] the particles packed */
+  Range *
+      range; /* [ranges] particles of the leaves within reach, ascending; adjacent leaves are one */
+  int64_t ranges, range_room;
   long width;
 } Share;
 
@@ -31,6 +37,7 @@ typedef struct {
   const Tree *t;
   const double *x, *y, *h; /* y may be NULL */
   double half;             /* factor/2 */
+  float reach;             /* the same, rounded up */
   const Box *box;          /* of the nodes at y */
 } Search;
 
@@ -40,8 +47,9 @@ typedef struct {
 } Place;
 
 static inline double sq(double x) { return x * x; }
+static inline double larger(double a, double b) { return a > b ? a : b; } /* fmax is a call */
 
-static void box_add(Box *b, const double lo[3], const double hi[3])
+static void box_add(Box *b, const float lo[3], const float hi[3])
 {
   for (int d = 0; d < 3; d++) {
     b->lo[d] = b->lo[d] < lo[d] ? b->lo[d] : lo[d];
@@ -49,20 +57,18 @@ static void box_add(Box *b, const double lo[3], const double hi[3])
   }
 }
 
-static Box box_of(const double *x, long first, long count)
+static Box box_of(const Tree *t, const double *x, long first, long count)
 {
   const double *p = x + 3 * first;
-  Box b = {{p[0], p[1], p[2]}, {p[0], p[1], p[2]}};
-  for (long i = 1; i < count; i++) box_add(&b, p + 3 * i, p + 3 * i);
+  double lo[3] = {p[0], p[1], p[2]}, hi[3] = {p[0], p[1], p[2]};
+  for (long i = 1; i < count; i++)
+    for (int d = 0; d < 3; d++) {
+      lo[d] = p[3 * i + d] < lo[d] ? p[3 * i + d] : lo[d];
+      hi[d] = p[3 * i + d] > hi[d] ? p[3 * i + d] : hi[d];
+    }
+  Box b;
+  tree_outward(t, lo, hi, b.lo, b.hi);
   return b;
-}
-
-static double gap(const double alo[3], const double ahi[3], const double blo[3],
-                  const double bhi[3])
-{
-  double d2 = 0;
-  for (int d = 0; d < 3; d++) d2 += sq(fmax(0, fmax(alo[d] - bhi[d], blo[d] - ahi[d])));
-  return d2;
 }
 
 static int near_pair(const Search *s, long i, long j)
@@ -86,21 +92,28 @@ static int grow(void *array, int64_t *room, int64_t n, size_t size)
   return 0;
 }
 
-/* The leaves that the group's particles may reach at x or at y, and the number of their particles,
- * or -1. */
-static long find_leaves(Share *w, const Search *s, const TreeGroup *g, const Box *at_y,
-                        long *leaves)
+/* The leaves that the group's particles may reach at x or at y, as ranges, and a box around each set
+ * of their positions; returns the number of their particles, or -1. */
+static long find_ranges(Share *w, const Search *s, const TreeGroup *g, Box at[2])
 {
+  const Tree *t = s->t;
+  const Box own[2] = {at[0], at[1]};
+  const float h = (float)(g->hmax / t->edge);
   long particles = 0;
-  *leaves = 0;
-  for (int32_t k = 0; k < s->t->nodes;) {
-    const TreeNode *p = s->t->node + k;
-    const double r2 = sq(s->half * (g->hmax + p->hmax)) * (1 + 1e-12);
-    int far = gap(g->lo, g->hi, p->lo, p->hi) > r2 &&
-              !(s->y && gap(at_y->lo, at_y->hi, s->box[k].lo, s->box[k].hi) <= r2);
-    if (!far && p->leaf) {
-      if (grow(&w->leaf, &w->leaf_room, *leaves + 1, sizeof *w->leaf)) return -1;
-      w->leaf[(*leaves)++] = k, particles += p->count;
+  w->ranges = 0;
+  for (int32_t k = 0; k < t->nodes;) {
+    const TreeWalk *p = t->walk + k;
+    const float r2 = s->reach * (h + p->hmax) * s->reach * (h + p->hmax);
+    int far = tree_gap2(own[0].lo, own[0].hi, p->lo, p->hi) > r2 &&
+              !(s->y && tree_gap2(own[1].lo, own[1].hi, s->box[k].lo, s->box[k].hi) <= r2);
+    if (!far && p->skip == k + 1) {
+      if (grow(&w->range, &w->range_room, w->ranges + 1, sizeof *w->range)) return -1;
+      if (!w->ranges || w->range[w->ranges - 1].end != p->first)
+        w->range[w->ranges++].first = p->first;
+      w->range[w->ranges - 1].end = p->first + p->count;
+      particles += p->count;
+      box_add(&at[0], p->lo, p->hi);
+      if (s->y) box_add(&at[1], s->box[k].lo, s->box[k].hi);
     }
     k = far ? p->skip : k + 1;
   }
@@ -121,48 +134,49 @@ static int make_room(Share *w, long n)
   return w->width = 0, -1;
 }
 
-/* Appends the coordinates of particles b .. e-1 relative to a centre; returns the largest of them.
- */
-static float pack_set(float *const to[3], const double *x, long b, long e, const double centre[3],
-                      double scale)
+/* Coordinates of particles b .. e-1 relative to a centre, from x[0], y[0], z[0] on. */
+static void pack_set(float *restrict x, float *restrict y, float *restrict z,
+                     const double *restrict p, long n, const double centre[3], double scale)
 {
-  float far = 0;
-  for (int d = 0; d < 3; d++)
-    for (long i = b; i < e; i++) {
-      float c = (float)((x[3 * i + d] - centre[d]) * scale);
-      to[d][i - b] = c;
-      far = fmaxf(far, fabsf(c));
-    }
-  return far;
+  const double cx = centre[0], cy = centre[1], cz = centre[2];
+  for (long i = 0; i < n; i++) {
+    x[i] = (float)((p[3 * i] - cx) * scale);
+    y[i] = (float)((p[3 * i + 1] - cy) * scale);
+    z[i] = (float)((p[3 * i + 2] - cz) * scale);
+  }
 }
 
-/* Packs the leaves; returns the largest coordinate. self: where the group's first particle stands.
- */
-static float pack_leaves(Share *w, const Search *s, const TreeGroup *g, const Box *at_y,
-                         long leaves, long *self)
+/* Packs the ranges, in root edges. self: where the group's first particle stands. */
+static void pack_ranges(Share *w, const Search *s, const TreeGroup *g, long *self)
 {
-  const double scale = 1 / s->t->edge;
-  double cx[3], cy[3];
-  float far = 0;
+  const double scale = 1 / s->t->edge, hscale = s->half * scale;
+  const double *cx = s->x + 3 * (g->first + g->count / 2);
+  const double *cy = s->y ? s->y + 3 * (g->first + g->count / 2) : NULL;
+  const long width = w->width;
   long n = 0;
-  for (int d = 0; d < 3; d++)
-    cx[d] = 0.5 * (g->lo[d] + g->hi[d]), cy[d] = 0.5 * (at_y->lo[d] + at_y->hi[d]);
-  for (long k = 0; k < leaves; k++) {
-    const TreeNode *p = s->t->node + w->leaf[k];
-    const long b = p->first, e = b + p->count;
-    float *to[7];
-    for (int d = 0; d < 7; d++) to[d] = w->pack + d * w->width + n;
-    if (b <= g->first && g->first < e) *self = n + g->first - b;
-    far = fmaxf(far, pack_set(to, s->x, b, e, cx, scale));
-    if (s->y) far = fmaxf(far, pack_set(to + 4, s->y, b, e, cy, scale));
-    for (long i = b; i < e; i++, n++) {
-      w->j[n] = (uint32_t)i;
-      to[3][i - b] = (float)(s->half * s->h[i] * scale);
-    }
+  for (const Range *r = w->range; r < w->range + w->ranges; r++) {
+    const long b = r->first, m = r->end - b;
+    float *x = w->pack + n, *h = x + 3 * width, *u = h + width;
+    if (b <= g->first && g->first < r->end) *self = n + g->first - b;
+    pack_set(x, x + width, x + 2 * width, s->x + 3 * b, m, cx, scale);
+    if (s->y) pack_set(u, u + width, u + 2 * width, s->y + 3 * b, m, cy, scale);
+    for (long i = 0; i < m; i++) h[i] = (float)(s->h[b + i] * hscale);
+    for (long i = 0; i < m; i++) w->j[n + i] = (uint32_t)(b + i);
+    n += m;
   }
-  for (; n & (PAD - 1); n++) /* never within reach */
-    for (int d = 0; d < 7; d++) w->pack[d * w->width + n] = d == 3 ? 0 : INFINITY;
-  return far;
+  for (; n & (PAD - 1); n++) /* never within reach; squares are finite */
+    for (int d = 0; d < 7; d++) w->pack[d * width + n] = d == 3 ? 0 : 1e18f;
+}
+
+/* An upper limit for the rounding error of a distance between packed particles: coordinates are at
+ * most the longest edge c of the boxes; their error and that of r up to 1.8 c is in all below
+ * 2^-24 (2.2 sqrt(3) c + 4 r) < 2^-18 c. */
+static float rounding(const Box at[2])
+{
+  float c = 0;
+  for (int k = 0; k < 2; k++)
+    for (int d = 0; d < 3; d++) c = fmaxf(c, at[k].hi[d] - at[k].lo[d]);
+  return 0x1p-18f * c;
 }
 
 /* hit[j] of target k: 0, 1 (within tau of the limit) or 2. */
@@ -195,21 +209,21 @@ static long take(const Share *w, const Search *s, long i, long n, uint32_t *out)
     uint64_t any;
     memcpy(&any, w->hit + b, 8);
     if (!any) continue;
-    const int doubt = (any & 0x0101010101010101) != 0;
-    for (long k = b; k < b + 8; k++) {
-      out[found] = w->j[k];
-      found += w->hit[k] >> 1 || (doubt && w->hit[k] && near_pair(s, i, w->j[k]));
-    }
+    for (long k = b; k < b + 8 && any & 0x0101010101010101; k++)
+      if (w->hit[k] == 1) w->hit[k] = near_pair(s, i, w->j[k]) ? 2 : 0;
+    for (long k = b; k < b + 8; k++) out[found] = w->j[k], found += w->hit[k] >> 1;
   }
   return found;
 }
 
 static int search_group(Share *w, const Search *s, const TreeGroup *g, int64_t *start)
 {
-  const Box at_y = s->y ? box_of(s->y, g->first, g->count) : (Box){0};
-  long leaves, self = 0, n = find_leaves(w, s, g, &at_y, &leaves);
+  Box at[2] = {box_of(s->t, s->x, g->first, g->count)};
+  if (s->y) at[1] = box_of(s->t, s->y, g->first, g->count);
+  long self = 0, n = find_ranges(w, s, g, at);
   if (n < 0 || make_room(w, n)) return -1;
-  const float tau = pack_leaves(w, s, g, &at_y, leaves, &self) * 0x1p-18f;
+  pack_ranges(w, s, g, &self);
+  const float tau = rounding(at);
   for (long k = 0; k < g->count; k++) {
     const long i = g->first + k;
     if (grow(&w->list, &w->room, w->n + n + 8, sizeof *w->list)) return -1;
@@ -230,7 +244,7 @@ static Box *boxes_at(const Tree *t, const double *y)
   if (!box) return NULL;
 #pragma omp parallel for schedule(static, 64)
   for (int32_t k = 0; k < t->nodes; k++)
-    if (t->node[k].leaf) box[k] = box_of(y, t->node[k].first, t->node[k].count);
+    if (t->node[k].leaf) box[k] = box_of(t, y, t->node[k].first, t->node[k].count);
   for (int32_t k = t->nodes; k-- > 0;) {
     if (t->node[k].leaf) continue;
     box[k] = box[k + 1];
@@ -316,7 +330,7 @@ static int prepare(Ngb *g, long n)
 int ngb_search(Ngb *g, const Tree *t, const double *x, const double *y, const double *h,
                double factor, Err *err)
 {
-  Search s = {t, x, y, h, 0.5 * factor, NULL};
+  Search s = {t, x, y, h, 0.5 * factor, (float)(0.50001 * factor), NULL};
   const long bad = check(&s, t->n);
   if (bad >= 0)
     return err_set(
@@ -332,17 +346,20 @@ int ngb_search(Ngb *g, const Tree *t, const double *x, const double *y, const do
 void ngb_point(const Tree *t, const double *x, const double *h, const double x0[3], double radius,
                void (*visit)(long j, double r2, void *data), void *data)
 {
+  const float least = (float)(1.00001 * radius / t->edge);
+  float lo[3], hi[3];
+  tree_outward(t, x0, x0, lo, hi);
   for (int32_t k = 0; k < t->nodes;) {
-    const TreeNode *p = t->node + k;
-    const double reach = h ? fmax(radius, p->hmax) : radius;
-    if (gap(x0, x0, p->lo, p->hi) > sq(reach) * (1 + 1e-12)) {
+    const TreeWalk *p = t->walk + k;
+    const float reach = h && p->hmax > least ? 1.00001f * p->hmax : least;
+    if (tree_gap2(lo, hi, p->lo, p->hi) > reach * reach) {
       k = p->skip;
       continue;
     }
-    for (long j = p->first; p->leaf && j < p->first + (long)p->count; j++) {
+    for (long j = p->first; p->skip == k + 1 && j < p->first + (long)p->count; j++) {
       const double *b = x + 3 * j;
       double r2 = sq(x0[0] - b[0]) + sq(x0[1] - b[1]) + sq(x0[2] - b[2]);
-      if (r2 < sq(h ? fmax(radius, h[j]) : radius)) visit(j, r2, data);
+      if (r2 < sq(h ? larger(radius, h[j]) : radius)) visit(j, r2, data);
     }
     k++;
   }
@@ -450,7 +467,7 @@ void ngb_free(Ngb *g)
 {
   for (int k = 0; k < g->shares; k++) {
     Share *w = g->share + k;
-    free(w->list), free(w->pack), free(w->hit), free(w->j), free(w->leaf);
+    free(w->list), free(w->pack), free(w->hit), free(w->j), free(w->range);
   }
   free(g->start), free(g->list), free(g->share);
   *g = (Ngb){0};

@@ -71,9 +71,9 @@ static long find_cube(long n, const double *x, Cube *cube)
 #pragma omp parallel for reduction(min : x0, y0, z0, bad) reduction(max : x1, y1, z1)
   for (long i = 0; i < n; i++) {
     const double *p = x + 3 * i;
-    x0 = fmin(x0, p[0]), x1 = fmax(x1, p[0]);
-    y0 = fmin(y0, p[1]), y1 = fmax(y1, p[1]);
-    z0 = fmin(z0, p[2]), z1 = fmax(z1, p[2]);
+    x0 = p[0] < x0 ? p[0] : x0, x1 = p[0] > x1 ? p[0] : x1;
+    y0 = p[1] < y0 ? p[1] : y0, y1 = p[1] > y1 ? p[1] : y1;
+    z0 = p[2] < z0 ? p[2] : z0, z1 = p[2] > z1 ? p[2] : z1;
     for (int d = 0; d < 3; d++)
       if (!(fabs(p[d]) < FAR) && 3 * i + d < bad) bad = 3 * i + d;
   }
@@ -262,23 +262,61 @@ static void set_size(const Tree *t, TreeNode *p)
   for (int d = 0; d < 3; d++) p->size = fmax(p->size, p->hi[d] - p->lo[d]);
 }
 
+void tree_outward(const Tree *t, const double lo[3], const double hi[3], float out_lo[3],
+                  float out_hi[3])
+{
+  const double scale = 1 / t->edge;
+  for (int d = 0; d < 3; d++) {
+    float a = (float)((lo[d] - t->origin[d]) * scale), b = (float)((hi[d] - t->origin[d]) * scale);
+    out_lo[d] = a - 0x1p-23f * fabsf(a);
+    out_hi[d] = b + 0x1p-23f * fabsf(b);
+  }
+}
+
+static void set_walk(const Tree *t, int32_t k)
+{
+  const TreeNode *p = t->node + k;
+  TreeWalk *w = t->walk + k;
+  const double scale = 1 / t->edge, up = (1 + 1e-7) * scale;
+  tree_outward(t, p->lo, p->hi, w->lo, w->hi);
+  for (int d = 0; d < 3; d++) w->com[d] = (float)((p->com[d] - t->origin[d]) * scale);
+  w->size = (float)(p->size * up), w->hmax = (float)(p->hmax * up);
+  w->first = p->first, w->count = p->count, w->skip = p->skip;
+}
+
+static void set_group(TreeGroup *g, const double *x, const double *h)
+{
+  box_empty(g->lo, g->hi);
+  g->hmax = 0;
+  for (long i = g->first; i < g->first + (long)g->count; i++) {
+    box_add(g->lo, g->hi, x + 3 * i, x + 3 * i);
+    if (h && h[i] > g->hmax) g->hmax = h[i];
+  }
+}
+
 void tree_refit(Tree *t, const double *x, const double *m, const double *h)
 {
 #pragma omp parallel for schedule(static, 64)
   for (int32_t k = 0; k < t->nodes; k++)
-    if (t->node[k].leaf) sum_leaf(t->node + k, x, m, h), set_size(t, t->node + k);
+    if (t->node[k].leaf) sum_leaf(t->node + k, x, m, h);
   for (int32_t k = t->nodes; k-- > 0;)
-    if (!t->node[k].leaf) sum_children(t->node, k), set_size(t, t->node + k);
+    if (!t->node[k].leaf) sum_children(t->node, k);
 #pragma omp parallel for schedule(static, 64)
-  for (int32_t k = 0; k < t->groups; k++) {
-    TreeGroup *g = t->group + k;
-    box_empty(g->lo, g->hi);
-    g->hmax = 0;
-    for (long i = g->first; i < g->first + (long)g->count; i++) {
-      box_add(g->lo, g->hi, x + 3 * i, x + 3 * i);
-      if (h && h[i] > g->hmax) g->hmax = h[i];
-    }
-  }
+  for (int32_t k = 0; k < t->nodes; k++) set_size(t, t->node + k), set_walk(t, k);
+#pragma omp parallel for schedule(static, 64)
+  for (int32_t k = 0; k < t->groups; k++) set_group(t->group + k, x, h);
+}
+
+/* Nodes, groups and room for the walk's copy, from the keys. */
+static int make_nodes(Tree *t)
+{
+  t->nodes = t->groups = 0;
+  if (grow(t, 0, (int32_t)t->n, 0) || make_groups(t, 0)) return -1;
+  if (t->nodes <= t->walk_room) return 0;
+  free(t->walk);
+  t->walk = malloc((size_t)t->node_room * sizeof *t->walk);
+  t->walk_room = t->walk ? t->node_room : 0;
+  return t->walk ? 0 : -1;
 }
 
 int tree_build(Tree *t, long n, const double *x, const double *m, const double *h, Err *err)
@@ -290,7 +328,7 @@ int tree_build(Tree *t, long n, const double *x, const double *m, const double *
     return err_set(err, "particle number %ld: coordinate %g is out of range", (-1 - bad) / 3,
                    x[-1 - bad]);
   memcpy(t->origin, cube.lo, sizeof t->origin);
-  t->edge = cube.edge, t->n = n, t->nodes = t->groups = 0;
+  t->edge = cube.edge, t->n = n;
   if (n > t->key_room) {
     free(t->key);
     t->key = malloc((size_t)n * sizeof *t->key);
@@ -301,14 +339,13 @@ int tree_build(Tree *t, long n, const double *x, const double *m, const double *
   for (long i = 1; i < n; i++)
     if (t->key[i - 1] > t->key[i])
       return err_set(err, "cannot build a tree: particle number %ld is not in Hilbert order", i);
-  if (grow(t, 0, (int32_t)n, 0) || make_groups(t, 0))
-    return err_set(err, "cannot build a tree of %ld particles: no memory", n);
+  if (make_nodes(t)) return err_set(err, "cannot build a tree of %ld particles: no memory", n);
   tree_refit(t, x, m, h);
   return 0;
 }
 
 void tree_free(Tree *t)
 {
-  free(t->node), free(t->group), free(t->key);
+  free(t->node), free(t->walk), free(t->group), free(t->key);
   *t = (Tree){0};
 }

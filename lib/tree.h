@@ -17,35 +17,40 @@
 enum { TREE_BUCKET = 16, TREE_GROUP = 64, TREE_LEVELS = 21 };
 
 typedef struct {
-  double lo[3], hi[3]; /* tight box of the particles [m] */
-  double com[3], mass; /* m, kg; without masses, or all zero: the centre of the box, 0 */
-  double
-      q[6]; /* quadrupole sum m (3 r_a r_b - r^2 delta_ab) about com, xx xy xz yy yz zz [kg m^2] */
-  double hmax; /* largest h below [m] */
-  double size; /* edge of the smallest cell, or the longest edge of the box after a refit [m] */
+  double lo[3], hi[3];  /* tight box of the particles [m] */
+  double com[3], mass;  /* m, kg; without masses, or all zero: the centre of the box, 0 */
+  double q[6];          /* sum m (3 r_a r_b - r^2 delta_ab) about com, xx xy xz yy yz zz [kg m^2] */
+  double hmax;          /* largest h below [m] */
+  double size;          /* edge of the smallest cell, or of the box if longer (refit) [m] */
   int32_t first, count; /* particles first .. first+count-1 of the sorted order */
-  int32_t skip;  /* the next node when this one is not opened; the children start at the node itself
-                    + 1 */
-  int16_t leaf;  /* 1: no children */
-  int16_t level; /* the cell is edge/2^level wide; levels without branching are left out */
+  int32_t skip;         /* the next node if this one is not opened; children start at the next */
+  int16_t leaf;         /* 1: no children */
+  int16_t level;        /* the cell is edge/2^level wide; levels without branching are left out */
 } TreeNode;
 
+/* What a walk reads of a node, in few bytes: lengths in root edges from the origin; boxes, size and
+ * hmax are rounded outwards, so that a walk misses nothing. Node k is a leaf when skip == k + 1. */
 typedef struct {
-  int32_t first,
-      count; /* a group: 1 .. TREE_GROUP consecutive sorted particles that share one walk */
-  double lo[3], hi[3]; /* m */
-  double hmax;         /* m */
+  float lo[3], hi[3], com[3], size, hmax;
+  int32_t first, count, skip;
+} TreeWalk;
+
+typedef struct {
+  int32_t first, count; /* 1 .. TREE_GROUP consecutive sorted particles that share one walk */
+  double lo[3], hi[3];  /* m */
+  double hmax;          /* m */
 } TreeGroup;
 
 typedef struct {
   long n;
   TreeNode *node;
+  TreeWalk *walk; /* [nodes] */
   int32_t nodes;
   TreeGroup *group;
   int32_t groups;
   double origin[3], edge; /* the root cube [m]; edge 1 when all particles coincide */
   /* private to tree.c: allocated lengths, and the keys */
-  int32_t node_room, group_room;
+  int32_t node_room, walk_room, group_room;
   uint64_t *key;
   long key_room;
 } Tree;
@@ -64,6 +69,23 @@ int tree_build(Tree *t, long n, const double *x, const double *m, const double *
  * What walks the tree stays exact; it gets slower the further the particles have moved since
  * tree_build. */
 void tree_refit(Tree *t, const double *x, const double *m, const double *h);
+
+/* tree_outward: a box [m] as walks use it: root edges from the origin, rounded outwards. */
+void tree_outward(const Tree *t, const double lo[3], const double hi[3], float out_lo[3],
+                  float out_hi[3]);
+
+/* tree_gap2: squared distance of two boxes, 0 when they overlap. */
+static inline float tree_gap2(const float alo[3], const float ahi[3], const float blo[3],
+                              const float bhi[3])
+{
+  float sum = 0;
+  for (int d = 0; d < 3; d++) {
+    float u = alo[d] - bhi[d], v = blo[d] - ahi[d], w = u > v ? u : v;
+    w = w > 0 ? w : 0;
+    sum += w * w;
+  }
+  return sum;
+}
 void tree_free(Tree *t);
 
 #endif
