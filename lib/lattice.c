@@ -1,13 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Squared distances between sites are multiples of 1/3 (HCP: odd layers are off by l/(2 sqrt 3)) or
- * 1/4 (1D, even numbers); as integers they tell shells apart exactly, and a histogram of them gives
- * the number of sites inside any radius. */
+/* Squared distances between sites are multiples of 1/3 (HCP: odd layers are off by l/(2 sqrt 3)); as
+ * integers they tell shells apart exactly, and a histogram of them counts the sites inside any
+ * radius. In 1D, where sites or the middles between them are the centre, twice the distance does. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include "lattice.h"
-
-enum { DIVISOR = 12 }; /* squared distances are multiples of 1/12 */
 
 typedef struct {
   double row, layer; /* spacing of rows and layers, in l */
@@ -22,6 +20,11 @@ static Cell cell(Lattice lattice)
   if (lattice == LATTICE_CUBIC) return (Cell){1, 1, 0, 0, 0, {0, 1, 1, 1}};
   return (Cell){sqrt(3) / 2,       sqrt(2. / 3), 0.5,
                 1 / (2 * sqrt(3)), 0.5,          {0, 1, sqrt(3) / 2, 1 / sqrt(2)}};
+}
+
+static long shell_key(int dimension, double r2)
+{
+  return lround(dimension == 1 ? 2 * sqrt(r2) : 3 * r2);
 }
 
 typedef void Visit(void *to, const double x[3], long key);
@@ -39,7 +42,7 @@ static void sites(const Cell *c, int dimension, double shift, double r, Visit *v
         double x[3] = {i + shift + (j & 1) * c->odd_row + odd * c->x, j * c->row + odd * c->y,
                        k * c->layer};
         double r2 = x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
-        if (r2 <= r * r) visit(to, x, lround(DIVISOR * r2));
+        if (r2 <= r * r) visit(to, x, shell_key(dimension, r2));
       }
   }
 }
@@ -87,7 +90,7 @@ int lattice_ball(LatticeBall *b, Lattice lattice, int dimension, long want, Err 
   Cell c = cell(lattice);
   double shift = dimension == 1 && want % 2 == 0 ? 0.5 : 0;
   double r = pow(want * c.volume[dimension] / ball[dimension], 1. / dimension) + 2;
-  long keys = lround(DIVISOR * r * r) + 1, *number = calloc((size_t)keys, sizeof *number);
+  long keys = shell_key(dimension, r * r) + 1, *number = calloc((size_t)keys, sizeof *number);
   Taker taker = {b, number, 0};
   *b = (LatticeBall){.volume = c.volume[dimension]};
   b->within = malloc((size_t)keys * sizeof *b->within);

@@ -180,7 +180,7 @@ static int rows(const OrbitApproach *a, const Body *b, Row row[ROWS])
 
 static void print(const Row *row, int n)
 {
-  printf("#quantity\tvalue\tunit\tmeaning\n");
+  printf("# quantity\tvalue\tunit\tmeaning\n");
   for (; n--; row++) {
     int angle = !strcmp(row->unit, "rad");
     printf("%s\t%.12g\t%s\t%s\n", row->name, angle ? row->value * 90 / acos(0) : row->value,

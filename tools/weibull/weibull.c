@@ -33,7 +33,7 @@ static const OptProgram PROGRAM = {
 
 static void statistics(const Parts *p, const WeibullGroup *group, int groups)
 {
-  fprintf(stderr, "#body\tmaterial\tparticles\tvolume[m^3]\tflaws\texpected\tlowest\thighest\n");
+  fprintf(stderr, "# body\tmaterial\tparticles\tvolume [m^3]\tflaws\texpected\tlowest\thighest\n");
   for (const WeibullGroup *g = group; g < group + groups; g++) {
     double n = (double)g->n,
            expected = n * (log(n) + 0.5772156649) + 0.5; /* N H_N, 1/N neglected */
