@@ -36,7 +36,7 @@ typedef struct {
 
 /* yield_factor: f in 0..1 for j2 [Pa^2], pressure p [Pa], damage 0..1, energy u [J/kg] and melt
  * energy [J/kg] (0: none). Laws use what they need; above the melt energy f is 0, below it the
- * yield stress falls with (1 - u/melt) (Benz & Asphaug 1999 sect. 2.2). */
+ * yield stress falls with (1 - u/melt) (as Benz & Asphaug 1999 do). */
 HD double yield_factor(const Yield *y, double j2, double p, double damage, double u, double melt)
 {
   double soft = melt > 0 ? 1 - u / melt : 1;
