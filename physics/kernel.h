@@ -12,7 +12,7 @@
 #define KERNEL_PI 3.14159265358979323846
 
 /* X(CAPITAL, name, sigma in 1D, 2D, 3D). Splines: Schoenberg (1946), Monaghan & Lattanzio (1985),
- * Price (2012); Wendland (1995) with the norms of Dehnen & Aly (2012) table 1; spiky:
+ * Price (2012); Wendland (1995) with the norms of Dehnen & Aly (2012); spiky:
  * Desbrun & Gascuel (1996). */
 /* clang-format off */
 #define KERNELS(X) \
