@@ -100,24 +100,17 @@ static inline __attribute__((always_inline)) void gradient_of(const State *s, lo
   }
 }
 
-/* A whole loop A with literals. */
-static inline __attribute__((always_inline)) void gradient_loop(Sim *sim, int kern, int line,
-                                                                int solid)
+/* Loop A over a range of particles, with literals. */
+static inline __attribute__((always_inline)) void gradients(const Sim *sim, Pack *b, long from,
+                                                            long to, int kern, int line, int solid)
 {
-  Cpu *c = sim->own;
-  const State *s = &sim->s;
+  const Cpu *c = sim->own;
   const PairFlow *record = (const PairFlow *)c->record;
-#pragma omp parallel
-  {
-    Pack b = {NULL, 0};
-#pragma omp for schedule(dynamic, 256)
-    for (long i = 0; i < s->n; i++) {
-      long n = (long)(c->ngb.start[i + 1] - c->ngb.start[i]);
-      double *p = pack_reserve(&b, n, FLOW);
-      pack((const double *)record, FLOW, c->ngb.list + c->ngb.start[i], n, p, b.room);
-      gradient_of(s, i, &record[i], p, b.room, n, kern, line, solid, &c->run);
-    }
-    free(b.column);
+  for (long i = from; i < to; i++) {
+    long n = (long)(c->ngb.start[i + 1] - c->ngb.start[i]);
+    double *p = pack_reserve(b, n, FLOW);
+    pack((const double *)record, FLOW, c->ngb.list + c->ngb.start[i], n, p, b->room);
+    gradient_of(&sim->s, i, &record[i], p, b->room, n, kern, line, solid, &c->run);
   }
 }
 
@@ -155,106 +148,110 @@ force_of(const State *s, long i, const PairBody *me, const double *p, long room,
   s->du[i] = du, s->dq[i] = dq, s->signal[i] = signal, s->nngb[i] = (int32_t)near;
 }
 
-static inline __attribute__((always_inline)) void force_loop(Sim *sim, int kern, int line,
-                                                             int solid, int miscible)
+/* Loop B over a range. */
+static inline __attribute__((always_inline)) void
+forces(const Sim *sim, Pack *b, long from, long to, int kern, int line, int solid, int miscible)
 {
-  Cpu *c = sim->own;
-  const State *s = &sim->s;
+  const Cpu *c = sim->own;
   const PairBody *record = (const PairBody *)c->record;
+  for (long i = from; i < to; i++) {
+    long n = (long)(c->ngb.start[i + 1] - c->ngb.start[i]);
+    double *p = pack_reserve(b, n, BODY);
+    pack((const double *)record, BODY, c->ngb.list + c->ngb.start[i], n, p, b->room);
+    force_of(&sim->s, i, &record[i], p, b->room, n, kern, line, solid, miscible, &c->run);
+  }
+}
+
+/* Kernel sums at x over a range: rho = sum m W and delta = sum W, the particle itself included
+ * (001 eq. 28, 004 eq. 2.48-2.49). */
+static inline __attribute__((always_inline)) void densities(const Sim *sim, long from, long to,
+                                                            int kern, int line)
+{
+  const Cpu *c = sim->own;
+  const State *s = &sim->s;
+  for (long i = from; i < to; i++) {
+    double w = pair_weight(kern, line, &c->run, 0, s->h[i]), delta = w, rho = s->m[i] * w;
+    for (int64_t k = c->ngb.start[i]; k < c->ngb.start[i + 1]; k++) {
+      long j = c->ngb.list[k];
+      const double *a = &s->x[3 * i], *x = &s->x[3 * j];
+      double r2 = (a[0] - x[0]) * (a[0] - x[0]) + (a[1] - x[1]) * (a[1] - x[1]) +
+                  (a[2] - x[2]) * (a[2] - x[2]);
+      w = pair_weight(kern, line, &c->run, r2, 0.5 * (s->h[i] + s->h[j]));
+      delta += w, rho += s->m[j] * w;
+    }
+    s->delta[i] = delta;
+    s->rho[i] = sim->miscible ? s->m[i] * delta : rho;
+  }
+}
+
+/* The stamps: a loop over a range is a function of its own, made with the literals it needs before
+ * OpenMP comes in (an outlined loop would carry them as variables). A line (1D) has one instance of
+ * each loop, the most general. */
+/* clang-format off */
+typedef void Range(const Sim *sim, Pack *b, long from, long to);
+#define STAMP(NAME, CALL) \
+  static void NAME(const Sim *sim, Pack *b, long from, long to) { (void)b, CALL; }
+#define STAMPS(CAPITAL, NAME, ...) \
+  STAMP(gradient_line_##NAME, gradients(sim, b, from, to, KERNEL_##CAPITAL, 1, sim->solid)) \
+  STAMP(gradient_fluid_##NAME, gradients(sim, b, from, to, KERNEL_##CAPITAL, 0, 0)) \
+  STAMP(gradient_solid_##NAME, gradients(sim, b, from, to, KERNEL_##CAPITAL, 0, 1)) \
+  STAMP(force_line_##NAME, forces(sim, b, from, to, KERNEL_##CAPITAL, 1, 1, sim->miscible)) \
+  STAMP(force_fluid_##NAME, forces(sim, b, from, to, KERNEL_##CAPITAL, 0, 0, 0)) \
+  STAMP(force_solid_##NAME, forces(sim, b, from, to, KERNEL_##CAPITAL, 0, 1, 0)) \
+  STAMP(force_fluid_miscible_##NAME, forces(sim, b, from, to, KERNEL_##CAPITAL, 0, 0, 1)) \
+  STAMP(force_solid_miscible_##NAME, forces(sim, b, from, to, KERNEL_##CAPITAL, 0, 1, 1)) \
+  STAMP(density_line_##NAME, densities(sim, from, to, KERNEL_##CAPITAL, 1)) \
+  STAMP(density_space_##NAME, densities(sim, from, to, KERNEL_##CAPITAL, 0))
+KERNELS(STAMPS)
+
+#define GRADIENT_ROW(CAPITAL, NAME, ...) \
+  {gradient_line_##NAME, gradient_fluid_##NAME, gradient_solid_##NAME},
+#define FORCE_ROW(CAPITAL, NAME, ...) \
+  {force_line_##NAME, force_fluid_##NAME, force_solid_##NAME, force_fluid_miscible_##NAME, \
+   force_solid_miscible_##NAME},
+#define DENSITY_ROW(CAPITAL, NAME, ...) {density_line_##NAME, density_space_##NAME},
+static Range *const gradient_stamps[KERNEL_COUNT][3] = {KERNELS(GRADIENT_ROW)};
+static Range *const force_stamps[KERNEL_COUNT][5] = {KERNELS(FORCE_ROW)};
+static Range *const density_stamps[KERNEL_COUNT][2] = {KERNELS(DENSITY_ROW)};
+/* clang-format on */
+
+enum { CHUNK = 128 };
+
+/* A stamped loop over all particles. */
+static void over(Sim *sim, Range *range)
+{
+  long n = sim->s.n;
 #pragma omp parallel
   {
     Pack b = {NULL, 0};
-#pragma omp for schedule(dynamic, 256)
-    for (long i = 0; i < s->n; i++) {
-      long n = (long)(c->ngb.start[i + 1] - c->ngb.start[i]);
-      double *p = pack_reserve(&b, n, BODY);
-      pack((const double *)record, BODY, c->ngb.list + c->ngb.start[i], n, p, b.room);
-      force_of(s, i, &record[i], p, b.room, n, kern, line, solid, miscible, &c->run);
-    }
+#pragma omp for schedule(dynamic, 1)
+    for (long from = 0; from < n; from += CHUNK)
+      range(sim, &b, from, from + CHUNK < n ? from + CHUNK : n);
     free(b.column);
   }
 }
 
-/* Kernel sums at x: rho = sum m W and delta = sum W, the particle itself included (001 eq. 28, 004
- * eq. 2.48-2.49). */
-static inline __attribute__((always_inline)) void density_loop(Sim *sim, int kern, int line,
-                                                               int miscible)
-{
-  Cpu *c = sim->own;
-  const State *s = &sim->s;
-#pragma omp parallel for schedule(dynamic, 256)
-  for (long i = 0; i < s->n; i++) {
-    double w = pair_weight(kern, line, &c->run, 0, s->h[i]), delta = w, rho = s->m[i] * w;
-    for (int64_t k = c->ngb.start[i]; k < c->ngb.start[i + 1]; k++) {
-      long j = c->ngb.list[k];
-      double x = s->x[3 * i] - s->x[3 * j], y = s->x[3 * i + 1] - s->x[3 * j + 1],
-             z = s->x[3 * i + 2] - s->x[3 * j + 2];
-      w = pair_weight(kern, line, &c->run, x * x + y * y + z * z, 0.5 * (s->h[i] + s->h[j]));
-      delta += w, rho += s->m[j] * w;
-    }
-    s->delta[i] = delta;
-    s->rho[i] = miscible ? s->m[i] * delta : rho;
-  }
-}
-
-/* The stamps: every kernel with the literals it needs. A line (1D) has one instance of each loop,
- * the most general. */
-#define LOOPS_GRADIENT(CAPITAL, ...)                                                               \
-  case KERNEL_##CAPITAL:                                                                           \
-    if (line)                                                                                      \
-      gradient_loop(sim, KERNEL_##CAPITAL, 1, sim->solid);                                         \
-    else if (sim->solid)                                                                           \
-      gradient_loop(sim, KERNEL_##CAPITAL, 0, 1);                                                  \
-    else                                                                                           \
-      gradient_loop(sim, KERNEL_##CAPITAL, 0, 0);                                                  \
-    break;
-#define LOOPS_FORCE(CAPITAL, ...)                                                                  \
-  case KERNEL_##CAPITAL:                                                                           \
-    if (line)                                                                                      \
-      force_loop(sim, KERNEL_##CAPITAL, 1, 1, sim->miscible);                                      \
-    else if (sim->solid)                                                                           \
-      force_loop(sim, KERNEL_##CAPITAL, 0, 1, sim->miscible);                                      \
-    else if (sim->miscible)                                                                        \
-      force_loop(sim, KERNEL_##CAPITAL, 0, 0, 1);                                                  \
-    else                                                                                           \
-      force_loop(sim, KERNEL_##CAPITAL, 0, 0, 0);                                                  \
-    break;
-#define LOOPS_DENSITY(CAPITAL, ...)                                                                \
-  case KERNEL_##CAPITAL:                                                                           \
-    if (line)                                                                                      \
-      density_loop(sim, KERNEL_##CAPITAL, 1, sim->miscible);                                       \
-    else                                                                                           \
-      density_loop(sim, KERNEL_##CAPITAL, 0, sim->miscible);                                       \
-    break;
-
 void cpu_gradient(Sim *sim)
 {
-  int line = sim->s.dimension == 1;
+  int which = sim->s.dimension == 1 ? 0 : sim->solid ? 2 : 1;
   backend_begin(sim, TIMER_A);
   records(sim, 0);
-  switch (sim->par.kernel) {
-    KERNELS(LOOPS_GRADIENT)
-  }
+  over(sim, gradient_stamps[sim->par.kernel][which]);
   backend_end(sim, TIMER_A);
 }
 
 void cpu_force(Sim *sim)
 {
-  int line = sim->s.dimension == 1;
+  int which = sim->s.dimension == 1 ? 0 : 1 + !!sim->solid + 2 * !!sim->miscible;
   backend_begin(sim, TIMER_B);
   records(sim, 1);
-  switch (sim->par.kernel) {
-    KERNELS(LOOPS_FORCE)
-  }
+  over(sim, force_stamps[sim->par.kernel][which]);
   backend_end(sim, TIMER_B);
 }
 
 void cpu_density(Sim *sim)
 {
-  int line = sim->s.dimension == 1;
   backend_begin(sim, TIMER_DENSITY);
-  switch (sim->par.kernel) {
-    KERNELS(LOOPS_DENSITY)
-  }
+  over(sim, density_stamps[sim->par.kernel][sim->s.dimension != 1]);
   backend_end(sim, TIMER_DENSITY);
 }
