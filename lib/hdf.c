@@ -85,7 +85,7 @@ hid_t hdf_group(hid_t loc, const char *name, Err *err)
   return group;
 }
 
-int hdf_has(hid_t loc, const char *name) { return H5Lexists(loc, name, H5P_DEFAULT) > 0; }
+int hdf_has(hid_t loc, const char *name) { return (int)H5Lexists(loc, name, H5P_DEFAULT); }
 
 /* ---- attributes ---- */
 
@@ -181,7 +181,7 @@ int hdf_get_text(hid_t obj, const char *name, char *out, int size, Err *err)
 
 int hdf_put_strings(hid_t loc, const char *name, char *const *line, int n, Err *err)
 {
-  if (!n) return 0;
+  if (n < 1) return 0;
   size_t size = 1;
   for (int i = 0; i < n; i++)
     if (strlen(line[i]) >= size) size = strlen(line[i]) + 1;

@@ -19,7 +19,8 @@ hid_t hdf_open(const char *path, Err *err);
 int hdf_close(hid_t file, Err *err);
 
 /* hdf_group: a new group that keeps the order of its attributes. hdf_has: 1 when a link of that
- * name is there. */
+ * name is there, 0 when not, -1 when the file is too damaged to say; opening it then says why, so
+ * do not take -1 for absent. */
 hid_t hdf_group(hid_t loc, const char *name, Err *err);
 int hdf_has(hid_t loc, const char *name);
 

@@ -194,8 +194,9 @@ static int get_header(hid_t file, Parts *p, Err *err)
 {
   int version = 0;
   int64_t count[64] = {0};
-  hid_t g = hdf_has(file, "Header") ? H5Gopen2(file, "Header", H5P_DEFAULT) : -1;
-  if (g < 0) return err_set(err, "no snapshot: lacks group 'Header'");
+  if (!hdf_has(file, "Header")) return err_set(err, "no snapshot: lacks group 'Header'");
+  hid_t g = H5Gopen2(file, "Header", H5P_DEFAULT);
+  if (g < 0) return hdf_fail(err, "'Header'");
   int types = -1, rc = hdf_get(g, "FormatVersion", H5T_NATIVE_INT, 1, &version, err) < 0;
   if (!rc && version > FORMAT_VERSION)
     rc = err_set(err, "format version %d, this program knows up to %d", version, FORMAT_VERSION);
@@ -353,8 +354,9 @@ static herr_t visit(hid_t particles, const char *name, const H5L_info_t *info, v
 
 static int get_particles(hid_t file, Parts *p, Err *err)
 {
-  hid_t g = hdf_has(file, "PartType0") ? H5Gopen2(file, "PartType0", H5P_DEFAULT) : -1;
-  if (g < 0) return err_set(err, "no snapshot: lacks group 'PartType0'");
+  if (!hdf_has(file, "PartType0")) return err_set(err, "no snapshot: lacks group 'PartType0'");
+  hid_t g = H5Gopen2(file, "PartType0", H5P_DEFAULT);
+  if (g < 0) return hdf_fail(err, "'PartType0'");
   Extras e = {p, err};
   err_set(err, "cannot list 'PartType0'");
   int rc = get_fields(g, p, err) || get_flaws(g, p, err) ||

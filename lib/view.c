@@ -46,15 +46,19 @@ static int add_columns(hid_t step, const char *name, hid_t type, const hsize_t d
       snprintf(column, sizeof column, "%c", "xyz"[k]);
     else
       snprintf(column, sizeof column, "%s_%d", name, (int)k);
-    if (!hdf_has(step, column) && add_column(step, column, source, type, dims, k, err)) return -1;
+    int there = hdf_has(step, column);
+    if (there < 0) return hdf_fail(err, "'Step#0'");
+    if (!there && add_column(step, column, source, type, dims, k, err)) return -1;
   }
   return 0;
 }
 
 static int add_link(hid_t step, hid_t particles, const char *name, Err *err)
 {
-  if (hdf_has(step, name)) return 0;
-  if (H5Lcreate_hard(particles, name, step, name, H5P_DEFAULT, H5P_DEFAULT) >= 0) return 0;
+  int there = hdf_has(step, name);
+  if (there > 0) return 0;
+  if (!there && H5Lcreate_hard(particles, name, step, name, H5P_DEFAULT, H5P_DEFAULT) >= 0)
+    return 0;
   return hdf_fail(err, "'Step#0/%s'", name);
 }
 
