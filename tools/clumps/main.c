@@ -24,7 +24,7 @@ static const Opt opts[] = {
     {"min-particles", 'n', OPT_INT, "20", "N", "smallest body", &arg.least},
     {"link", 'l', OPT_REAL, "1", "1", "potential: friends when r_ij < link (h_i + h_j)/2",
      &arg.link},
-    {"theta", 't', OPT_REAL, "0.5", "1", "opening angle of the gravity tree", &arg.theta},
+    {"theta", 't', OPT_REAL, "0.7", "1", "opening angle of the gravity tree", &arg.theta},
     {"output", 'o', OPT_TEXT, NULL, "FILE", "write the snapshot with ClumpID", &arg.out},
     {0}};
 

@@ -29,7 +29,7 @@ static const Opt opts[] = {
     {"min-particles", 'n', OPT_INT, "1", "N", "smallest fragment", &arg.least},
     {"survivors", 's', OPT_REAL, "0.1", "1", "a survivor has this fraction of the largest mass",
      &arg.survivors},
-    {"theta", 't', OPT_REAL, "0.5", "1", "opening angle for the gravity of fragments", &arg.theta},
+    {"theta", 't', OPT_REAL, "0.7", "1", "opening angle for the gravity of fragments", &arg.theta},
     {"output", 'o', OPT_TEXT, NULL, "FILE", "write the snapshot with FragmentID", &arg.out},
     {0}};
 

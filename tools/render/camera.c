@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <gsl/gsl_sort.h>
+#include "camera.h"
+#include "lib/unit.h"
+
+#define MARGIN 1.2
+
+void camera_plane(Camera *c, const char *plane)
+{
+  c->right = plane[0] - 'x', c->up = plane[1] - 'x';
+  c->out = 3 - c->right - c->up;
+  c->sign = c->out == 1 ? -1 : 1; /* right x up */
+}
+
+/* X,Y,Z: lengths with units. */
+static int coordinates(double x[3], const char *text, Err *err)
+{
+  char word[64];
+  for (int a = 0; a < 3; a++) {
+    size_t n = strcspn(text, ",");
+    if (n >= sizeof word || (a < 2) != (text[n] == ','))
+      return err_set(err, "--centre: '%s' is not three lengths", text);
+    memcpy(word, text, n), word[n] = 0;
+    if (unit_parse(word, "m", &x[a], err)) return -1;
+    text += n + (a < 2);
+  }
+  return 0;
+}
+
+static int centre_of(double x[3], const Parts *p, const int32_t *id, long wanted)
+{
+  double mass = 0, sum[3] = {0};
+  for (long i = 0; i < p->n; i++) {
+    if (id && id[i] != wanted) continue;
+    for (int a = 0; a < 3; a++) sum[a] += p->m[i] * p->x[3 * i + a];
+    mass += p->m[i];
+  }
+  for (int a = 0; a < 3 && mass > 0; a++) x[a] = sum[a] / mass;
+  return mass > 0 ? 0 : -1;
+}
+
+int camera_centre(Camera *c, const Parts *p, const char *text, const char *file, Err *err)
+{
+  static const char *const words[] = {"body:", "fragment:", "clump:"}, *const members[] = {
+                                                                           "body", "frag", "clump"};
+  const int32_t *const ids[] = {p->body, p->frag, p->clump};
+  if (!strcmp(text, "com"))
+    return centre_of(c->centre, p, NULL, 0) ? err_set(err, "'%s': no particles", file) : 0;
+  for (int k = 0; k < 3; k++) {
+    size_t n = strlen(words[k]);
+    if (strncmp(text, words[k], n)) continue;
+    char *end;
+    long wanted = strtol(text + n, &end, 10);
+    if (end == text + n || *end) return err_set(err, "--centre: '%s' has no number", text);
+    if (part_need(p, members[k], file, err)) return -1;
+    return centre_of(c->centre, p, ids[k], wanted)
+               ? err_set(err, "'%s': nothing belongs to %s", file, text)
+               : 0;
+  }
+  return coordinates(c->centre, text, err);
+}
+
+double camera_extent(const Camera *c, const Parts *p)
+{
+  double *need = malloc((size_t)(p->n + 1) * sizeof *need), mass = 0, sum = 0, width = 0;
+  size_t *order = malloc((size_t)(p->n + 1) * sizeof *order);
+  if (!need || !order) err_die("out of memory");
+  for (long i = 0; i < p->n; i++) {
+    const double *x = p->x + 3 * i;
+    double across = fabs(x[c->right] - c->centre[c->right]),
+           tall = fabs(x[c->up] - c->centre[c->up]);
+    need[i] = 2 * (fmax(across, tall * c->w / c->h) + 0.5 * p->h[i]), mass += p->m[i];
+  }
+  gsl_sort_index(order, need, 1, (size_t)p->n);
+  for (long k = 0; k < p->n && sum < 0.99 * mass; k++)
+    width = need[order[k]], sum += p->m[order[k]];
+  free(need), free(order);
+  return MARGIN * width;
+}
+
+void camera_see(const Camera *c, const double x[3], double *u, double *v, double *depth)
+{
+  *u = c->w / 2. + c->scale * (x[c->right] - c->centre[c->right]);
+  *v = c->h / 2. - c->scale * (x[c->up] - c->centre[c->up]);
+  *depth = c->scale * (c->sign * (x[c->out] - c->centre[c->out]) - c->offset);
+}

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Three ways to see particles: each fills a window of samples with the value shown and a
+ * brightness. */
+#ifndef SAMPLE_H
+#define SAMPLE_H
+
+#include "camera.h"
+#include "field.h"
+
+typedef struct {
+  int w, h, stride; /* px */
+  float *value;     /* [h][stride], NAN where nothing is seen */
+  float *shade;     /* [h][stride], 0..1 */
+} Window;
+
+/* slice_sample: SPH interpolation sum_j m_j/rho_j A_j W / sum_j m_j/rho_j W on the cutting plane,
+ * inside of the matter (where the denominator, 1 in the bulk, exceeds 1/2, or within a particle on
+ * its own); kinds by the particle that weighs most. */
+int slice_sample(Window *win, const Parts *p, const Field *f, const Camera *c, Err *err);
+
+/* cut_sample: particles as shaded spheres; what lies before the cutting plane is removed, the
+ * spheres that it meets are cut flat. whole: nothing is removed. */
+int cut_sample(Window *win, const Parts *p, const Field *f, const Camera *c, int whole, Err *err);
+
+/* project_sample: along the line of sight: sum_j m_j W_2D for FIELD_COLUMN, else the mass-weighted
+ * mean of the field, where the column is more than 1e-4 of its largest value. */
+int project_sample(Window *win, const Parts *p, const Field *f, const Camera *c, Err *err);
+
+#endif
