@@ -315,7 +315,7 @@ static void datasets_are_labelled(void **state)
 static void assert_column(hid_t f, const char *name, const double *rows, int width, int k)
 {
   double got[N];
-  char path[128];
+  char path[160];
   snprintf(path, sizeof path, "Step#0/%s", name);
   hid_t d = H5Dopen2(f, path, H5P_DEFAULT), space = H5Dget_space(d), type = H5Dget_type(d);
   hid_t dcpl = H5Dget_create_plist(d);
