@@ -84,12 +84,22 @@ static int walk_tree(Walk *w, const Tree *t, const TreeGroup *g, double theta)
   return 0;
 }
 
+/* The next above x, so that scaling rounds nothing; 1 for 0. */
+static double power_of_2(double x)
+{
+  int e = 0;
+  if (x > 0) frexp(x, &e);
+  return ldexp(1, e);
+}
+
 int gravity_tree(const Tree *t, const double *x, const double *m, const double *h,
                  const GravityOptions *o, double *a, double *phi, Err *err)
 {
   const Bodies p = {x, m, h, a, phi};
-  const Scale s = {
-      {0}, t->edge, t->node[0].mass > 0 ? t->node[0].mass : 1, o->G, o->single ? 1e-10 : 1e-80};
+  const Scale s = {.length = power_of_2(t->edge),
+                   .mass = power_of_2(t->node[0].mass),
+                   .G = o->G,
+                   .near = o->single ? 1e-10 : 1e-80};
   int failed = 0;
 #pragma omp parallel reduction(| : failed)
   {

@@ -139,13 +139,14 @@ static void NAME(evaluate)(const Scale *s, const Bodies *p, long b, long e,
   }
 }
 
-/* One group: lists relative to its centre, then the sums. */
+/* One group: lists (in single precision relative to its centre), then the sums. */
 static int NAME(group)(const Scale *tree, const Bodies *p, const Tree *t, const TreeGroup *g,
                        const Walk *w, NAME(List) * nodes, NAME(List) * parts)
 {
   Scale s = *tree;
   long self = -1;
-  for (int d = 0; d < 3; d++) s.origin[d] = 0.5 * (g->lo[d] + g->hi[d]);
+  for (int d = 0; d < 3 && sizeof(REAL) < sizeof(double); d++)
+    s.origin[d] = 0.5 * (g->lo[d] + g->hi[d]);
   if (NAME(reserve)(nodes, w->nodes) || NAME(reserve)(parts, w->particles)) return -1;
   NAME(pack_nodes)(nodes, &s, t->node, w->node, w->nodes);
   parts->n = 0;

@@ -165,25 +165,26 @@ static int grow(Tree *t, int32_t b, int32_t e, int level)
 }
 
 /* Groups: consecutive children of one node are taken together while they are at most TREE_GROUP; so
- * no group reaches beyond the smallest cell that holds more. Leaves that are too large are cut. */
+ * no group reaches beyond the smallest cell that holds more. A child far smaller than the cell stays
+ * alone, as the group's coordinates are to resolve it. Leaves that are too large are cut. */
 static int make_groups(Tree *t, int32_t parent)
 {
-  const int32_t end = t->node[parent].skip;
-  int32_t first = t->node[parent].first, count = 0;
-  for (int32_t c = parent + 1; c < end; c = t->node[c].skip) {
-    int32_t more = t->node[c].count;
-    if (count && count + more > TREE_GROUP) {
+  const TreeNode *p = t->node + parent, *c;
+  int32_t first = p->first, count = 0;
+  for (int32_t k = parent + 1; k < p->skip; k = c->skip) {
+    c = t->node + k;
+    const int alone = c->count > TREE_GROUP || (c->count > 1 && c->level > p->level + 4);
+    if (count && (alone || count + c->count > TREE_GROUP)) {
       if (new_group(t, first, count)) return -1;
-      first += count, count = 0;
+      count = 0;
     }
-    if (more <= TREE_GROUP) {
-      count += more;
-    } else {
-      if (make_groups(t, c)) return -1;
-      first += more;
-    }
+    if (!count) first = c->first;
+    if (!alone)
+      count += c->count;
+    else if (make_groups(t, k))
+      return -1;
   }
-  if (t->node[parent].leaf) count = t->node[parent].count;
+  if (p->leaf) count = p->count;
   for (; count > TREE_GROUP; first += TREE_GROUP, count -= TREE_GROUP)
     if (new_group(t, first, TREE_GROUP)) return -1;
   return count ? new_group(t, first, count) : 0;
