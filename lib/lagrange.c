@@ -139,8 +139,9 @@ static int start(Shells *s, const StructureLayer *layer, int layers, long cells,
   return 0;
 }
 
-/* The state at an edge of a cell, where m lies inside: the pressure by the weight of half the cell, as in step 1 (at the centre
- * p_c = p + 2 pi/3 G rho^2 r^2), the density on the cell's isentrope by Newton's method. */
+/* The state at an edge of a cell, where m lies inside: the pressure by the weight of half the cell,
+ * as in step 1 (at the centre p_c = p + 2 pi/3 G rho^2 r^2), the density on the cell's isentrope by
+ * Newton's method. */
 static StructureNode node(const Cell *cell, double from, double r, double m, double half)
 {
   double g = r > 0 ? UNIT_G * m / (r * r) : 0;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Squared distances between sites are multiples of 1/3 (HCP: odd layers are off by l/(2 sqrt 3)); as
- * integers they tell shells apart exactly, and a histogram of them counts the sites inside any
- * radius. In 1D, where sites or the middles between them are the centre, twice the distance does. */
+/* Squared distances between sites are multiples of 1/3 (HCP: odd layers are off by l/(2 sqrt 3));
+ * as integers they tell shells apart exactly, and a histogram of them counts the sites inside any
+ * radius. In 1D, where the centre is a site or midway between two, twice the distance does. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

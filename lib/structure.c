@@ -217,7 +217,8 @@ void structure_free(Structure *s)
   *s = (Structure){0};
 }
 
-/* q = m^(1/3), r, rho, p, u of a node and their slopes d against m^(1/3): mass, hydrostatics, isentrope. */
+/* q = m^(1/3), r, rho, p, u of a node and their slopes d against m^(1/3): mass, hydrostatics,
+ * isentrope. */
 enum { THIRD, RADIUS, RHO, PRESSURE, ENERGY, QUANTITIES };
 
 static void slopes(const StructureNode *a, double q[QUANTITIES], double d[QUANTITIES])

@@ -25,12 +25,12 @@ typedef struct {
   int layer;
 } StructureNode;
 
+/* From the centre to the surface; each side of an interface has its node. */
 typedef struct {
-  StructureNode
-      *node; /* [n] from the centre to the surface; each side of an interface has its node */
+  StructureNode *node; /* [n] */
   long n;
   int layers;
-  long first[STRUCTURE_LAYERS + 1]; /* first node of each layer */
+  long first[STRUCTURE_LAYERS + 1]; /* first node of each layer, and n */
 } Structure;
 
 /* structure_density: density [kg/m^3] at zero pressure and energy u >= 0: the root of p(rho, u)
@@ -42,8 +42,8 @@ int structure_density(const Eos *eos, double u, double *rho, Err *err);
 int structure_solve(Structure *s, const StructureLayer *layer, int layers, long nodes, Err *err);
 void structure_free(Structure *s);
 
-/* structure_at_mass: state at mass m of a layer, cubic with the exact slopes within that layer (clamped to it).
- * structure_at_radius: the same at radius r, of the layer that holds r. */
+/* structure_at_mass: state at mass m of a layer, cubic with the exact slopes within that layer
+ * (clamped to it). structure_at_radius: the same at radius r, of the layer that holds r. */
 StructureNode structure_at_mass(const Structure *s, int layer, double m);
 StructureNode structure_at_radius(const Structure *s, double r);
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* lib/lattice: a true close packing (bodies-and-analysis.md 2.1), whole shells, centre of mass, volume. */
+/* lib/lattice: a true close packing (bodies-and-analysis.md 2.1), whole shells, centre of mass,
+ * volume. */
 #include <math.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -36,7 +37,8 @@ static void check_shells(Lattice lattice, int dimension, int n, const double *r2
   lattice_free(&b);
 }
 
-/* HCP: 12 at 1, 6 at sqrt 2, 2 at sqrt(8/3), 18, 12, 6 (2.1); so 57 lie within 2.127 spacings, themselves included. */
+/* HCP: 12 at 1, 6 at sqrt 2, 2 at sqrt(8/3), 18, 12, 6 (2.1); so 57 lie within 2.127 spacings,
+ * themselves included. */
 static void test_shells(void **state)
 {
   const double hcp[] = {0, 1, 2, 8. / 3, 3, 11. / 3, 4, 5}, cubic[] = {0, 1, 2, 3, 4, 5};
@@ -48,7 +50,8 @@ static void test_shells(void **state)
   check_shells(LATTICE_CUBIC, 2, 5, square, (int[]){1, 4, 4, 4, 8});
 }
 
-/* Every site has the same surroundings: all far from the surface have as many nearest neighbours, at distance 1. */
+/* Every site has the same surroundings: all far from the surface have as many nearest neighbours,
+ * at distance 1. */
 static void test_neighbours(void **state)
 {
   const int want[LATTICE_COUNT][4] = {{0, 2, 6, 12}, {0, 2, 4, 6}};
@@ -84,7 +87,8 @@ static long closest(Lattice lattice, int dimension, long want)
   return dimension == 1 ? 0 : best;
 }
 
-/* The number is the closest to the one wanted, the ball as large as its volume says, its centre of mass in its centre. */
+/* The number is the closest to the one wanted, the ball as large as its volume says, its centre of
+ * mass in its centre. */
 static void test_number(void **state)
 {
   const long want[] = {1, 2, 13, 57, 300, 5000, 20000, 100000};

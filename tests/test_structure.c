@@ -56,8 +56,9 @@ static Structure relax(const StructureLayer *layer, int layers, long cells)
   return s;
 }
 
-/* 2.2: central pressure and radius. The printed p_c are 4e-5 and 6e-5 low: for (a) an RK4 integration over r with p as the
- * unknown gives 4.704787e9, and so do the shells in the limit of many. */
+/* 2.2: central pressure and radius. The printed p_c are 4e-5 and 6e-5 low: for (a) an RK4
+ * integration over r with p as the unknown gives 4.704787e9, and so do the shells in the limit of
+ * many. */
 static void test_acceptance(void **state)
 {
   Structure a = solve(SMALL, 1, 400), b = solve(EARTH, 2, 400);

@@ -85,8 +85,8 @@ static void test_large(void **state)
   assert_true(fabs(log10(e) * 50 - 3 + 320) < 1e-10);
 }
 
-/* Thresholds together are exactly (j/(k V))^(1/m), j = 1..n; ascending in each particle; none without; the number that a strain e
- * activates is k V e^m to one flaw. */
+/* Thresholds together are exactly (j/(k V))^(1/m), j = 1..n; ascending in each particle; none
+ * without; the number that a strain e activates is k V e^m to one flaw. */
 static void test_thresholds(void **state)
 {
   Parts *p = sphere(2000);
@@ -130,8 +130,8 @@ static void test_number(void **state)
   assert_true(far < 9);
 }
 
-/* Flaws fall on all particles alike. Conditioned on the last empty particle's end, the counts of the others are those of uniform
- * throws: chi squared of the first n counts, p in 0.001..0.999. */
+/* Flaws fall on all particles alike. Conditioned on the last empty particle's end, the counts of
+ * the others are those of uniform throws: chi squared of the first n counts, p in 0.001..0.999. */
 static void test_uniform(void **state)
 {
   const long n = 20000;
@@ -145,7 +145,8 @@ static void test_uniform(void **state)
   done(p);
 }
 
-/* Counts are distributed like Poisson with the mean n/N: chi squared over the classes that expect 20 particles and more. */
+/* Counts are distributed like Poisson with the mean n/N: chi squared over the classes that expect
+ * 20 particles and more. */
 static void test_poisson(void **state)
 {
   enum { CLASSES = 64 };
@@ -165,7 +166,8 @@ static void test_poisson(void **state)
   done(p);
 }
 
-/* The same flaws for each id, whatever the order of the particles; other seeds, bodies and materials give others. */
+/* The same flaws for each id, whatever the order of the particles; other seeds, bodies and
+ * materials give others. */
 static void test_order(void **state)
 {
   const long n = 1000;
@@ -188,7 +190,8 @@ static void test_order(void **state)
   free(order), free(sa), free(sb), done(a), done(b), done(c);
 }
 
-/* Each body and each brittle material by itself, with its own volume; others get no flaws; a second pass starts afresh. */
+/* Each body and each brittle material by itself, with its own volume; others get no flaws; a second
+ * pass starts afresh. */
 static void test_groups(void **state)
 {
   Material material[3] = {BASALT, {.mu = 1}, BASALT};
