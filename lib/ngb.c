@@ -9,7 +9,7 @@
 #include <omp.h>
 #include "ngb.h"
 
-enum { PAD = 32 };
+enum { PAD = 64 };
 
 #define INLINE static inline __attribute__((always_inline))
 
@@ -92,8 +92,8 @@ static int grow(void *array, int64_t *room, int64_t n, size_t size)
   return 0;
 }
 
-/* The leaves that the group's particles may reach at x or at y, as ranges, and a box around each set
- * of their positions; returns the number of their particles, or -1. */
+/* The leaves that the group's particles may reach at x or at y, as ranges, and a box around each
+ * set of their positions; returns the number of their particles, or -1. */
 static long find_ranges(Share *w, const Search *s, const TreeGroup *g, Box at[2])
 {
   const Tree *t = s->t;

@@ -165,8 +165,8 @@ static int grow(Tree *t, int32_t b, int32_t e, int level)
 }
 
 /* Groups: consecutive children of one node are taken together while they are at most TREE_GROUP; so
- * no group reaches beyond the smallest cell that holds more. A child far smaller than the cell stays
- * alone, as the group's coordinates are to resolve it. Leaves that are too large are cut. */
+ * no group reaches beyond the smallest cell that holds more. A child far smaller than the cell
+ * stays alone, as the group's coordinates are to resolve it. Leaves that are too large are cut. */
 static int make_groups(Tree *t, int32_t parent)
 {
   const TreeNode *p = t->node + parent, *c;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Clouds of particles for the tests of tree, search and gravity: many shapes, in Hilbert order, SI units. */
+/* Clouds of particles for the tests of tree, search and gravity: many shapes, in Hilbert order, SI
+ * units. */
 #ifndef CLOUD_H
 #define CLOUD_H
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Neighbour lists equal brute force: all shapes, one and two sets of positions, h that differ by a factor 5. */
+/* Neighbour lists equal brute force: all shapes, one and two sets of positions, h that differ by a
+ * factor 5. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdint.h>
@@ -80,8 +81,8 @@ static void refitted_trees_serve(void **state)
   tree_free(&t), ngb_free(&g), cloud_free(&c);
 }
 
-/* Pairs of PAIRS stand within 1e-13 of the limit, far inside the rounding of single precision: some are listed, some are not, and
- * both members agree. */
+/* Pairs of PAIRS stand within 1e-13 of the limit, far inside the rounding of single precision: some
+ * are listed, some are not, and both members agree. */
 static void the_limit_is_sharp(void **state)
 {
   (void)state;
@@ -103,7 +104,8 @@ static void the_limit_is_sharp(void **state)
   tree_free(&t), ngb_free(&g), cloud_free(&c);
 }
 
-/* Simple cubic lattice of unit spacing, h = 2: 6 + 12 + 8 neighbours at 1, sqrt 2, sqrt 3; those at 2 do not interact. */
+/* Simple cubic lattice of unit spacing, h = 2: 6 + 12 + 8 neighbours at 1, sqrt 2, sqrt 3; those at
+ * 2 do not interact. */
 static void lattice_shells(void **state)
 {
   (void)state;
@@ -201,8 +203,8 @@ static void point_visits_all_within_reach(void **state)
   tree_free(&t);
 }
 
-/* V n for h of particle i with the kernel's own normalisation, by brute force. sigma: 3/2, 7/pi, 21/2pi integrate (1-q)^4 (1+4q)
- * to 1 in 1D, 2D, 3D. */
+/* V n for h of particle i with the kernel's own normalisation, by brute force. sigma: 3/2, 7/pi,
+ * 21/2pi integrate (1-q)^4 (1+4q) to 1 in 1D, 2D, 3D. */
 static double held(const Cloud *c, int dimension, long i)
 {
   const double h = c->h[i], volume[] = {0, 2 * h, PI * h * h, 4 * PI / 3 * h * h * h};

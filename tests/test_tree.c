@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The octree: the order is Hilbert's, nodes and groups are what tree.h says, for all shapes of clouds. */
+/* The octree: the order is Hilbert's, nodes and groups are what tree.h says, for all shapes of
+ * clouds. */
 #include <setjmp.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,7 +13,8 @@ static Err err;
 static const long SIZES[] = {1, 2, 17, 65, 3000};
 #define FOR_SIZES(N) for (const long *N = SIZES; N < SIZES + sizeof SIZES / sizeof *SIZES; N++)
 
-/* Successive cells of a Hilbert curve share a face (Hilbert 1891); Morton order fails at every second step. */
+/* Successive cells of a Hilbert curve share a face (Hilbert 1891); Morton order fails at every
+ * second step. */
 static void order_is_hilbert(void **state)
 {
   (void)state;
