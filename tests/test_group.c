@@ -218,6 +218,9 @@ static void two_bodies(void **state)
   o = group_pair(zero, zero, M, y, c, M);
   CLOSE(o.orbit.e, 0, 1e-7), CLOSE(o.v * sqrt(2) / o.v_esc, 1, 1e-12);
   assert_true(o.orbit.beta > 0);
+  const double d[3] = {29801e3 + 31113e3, 0, 0}; /* 001 sect. 5.2, table 3: F1 and F2, 64 m/s */
+  o = group_pair(zero, zero, 9.55e20, d, v, 9.17e20);
+  CLOSE(o.v_esc, 64, 0.5);
 }
 
 /* As many cells in a row as names in the header, all of one line. */

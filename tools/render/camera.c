@@ -18,11 +18,12 @@ void camera_plane(Camera *c, const char *plane)
 /* X,Y,Z: lengths with units. */
 static int coordinates(double x[3], const char *text, Err *err)
 {
+  const char *whole = text;
   char word[64];
   for (int a = 0; a < 3; a++) {
     size_t n = strcspn(text, ",");
     if (n >= sizeof word || (a < 2) != (text[n] == ','))
-      return err_set(err, "--centre: '%s' is not three lengths", text);
+      return err_set(err, "--centre: '%s' is not three lengths", whole);
     memcpy(word, text, n), word[n] = 0;
     if (unit_parse(word, "m", &x[a], err)) return -1;
     text += n + (a < 2);

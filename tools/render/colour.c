@@ -25,7 +25,7 @@ static const Rgb polar[11] = {{5, 48, 97}, {33, 102, 172}, {67, 147, 195}, {146,
     {253, 219, 199}, {244, 165, 130}, {214, 96, 77}, {178, 24, 43}, {103, 0, 31}};
 
 /* Okabe & Ito (2008), distinct for the colour blind. */
-static const Rgb kinds[] = {{230, 159, 0}, {86, 180, 233}, {0, 158, 115}, {240, 228, 66}, {0, 114, 178}, {213, 94, 0}, {204, 121, 167}};
+static const Rgb okabe_ito[] = {{230, 159, 0}, {86, 180, 233}, {0, 158, 115}, {240, 228, 66}, {0, 114, 178}, {213, 94, 0}, {204, 121, 167}};
 
 static const struct {
   const char *word;
@@ -67,7 +67,7 @@ Rgb colour_map(const char *map, double t)
   return polynomial(!strcmp(map, "magma") ? magma : !strcmp(map, "inferno") ? inferno : viridis, t);
 }
 
-Rgb colour_kind(long k) { return kinds[k % (long)(sizeof kinds / sizeof *kinds)]; }
+Rgb colour_kind(long k) { return okabe_ito[k % (long)(sizeof okabe_ito / sizeof *okabe_ito)]; }
 
 Rgb colour_of_material(const char *name, int k)
 {

@@ -98,8 +98,8 @@ int project_sample(Window *win, const Parts *p, const Field *f, const Camera *c,
   for (long i = 0; i < p->n && !failed; i++) {
     double u, v, depth;
     camera_see(c, p->x + 3 * i, &u, &v, &depth);
-    s[i] = (Spot){(float)u, (float)v, (float)fmax(1.5, p->h[i] * c->scale), (float)p->m[i],
-                  f->value ? f->value[i] : 0};
+    s[i] = (Spot){(float)u, (float)v, (float)fmax(1.5, p->h[i] * c->scale),
+                  (float)(p->m[i] / total), f->value ? f->value[i] : 0};
   }
 #pragma omp parallel for schedule(dynamic)
   for (int y = 0; y < win->h; y += BAND) {

@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# fof on two spheres of known mass: table, escape speed (001 eq. 74), filters, ids, errors.
+
+setup_file() {
+  cd "$BATS_FILE_TMPDIR"
+  mksphere -n 2000 --mass 9e20 --layer basalt:0.7 --layer ice:0.3 -o a.h5
+  mksphere -n 700 --mass 3e20 --layer basalt:1 -o b.h5
+  collide a.h5 b.h5 --angle 48deg --speed 1.7vesc --distance 4 -o two.h5
+}
+setup() { cd "$BATS_FILE_TMPDIR"; }
+
+# column NAME [FILE]: a column of the table by its name, rows one below the other.
+column() {
+  awk -F'\t' -v name="$1" '/^# id/ { for (k = 1; k <= NF; k++) if ($k == name || index($k, name " [") == 1) at = k }
+    !/^#/ { print at ? $at : "no such column" }' "${2:-table}"
+}
+# near A B: equal to 1e-6.
+near() { awk -v a="$1" -v b="$2" 'BEGIN { d = a - b; exit !(d * d <= 1e-12 * b * b) }'; }
+
+@test "two bodies are two fragments of their masses, the larger first" {
+  fof two.h5 >table
+  [ "$(grep -vc '^#' table)" = 2 ]
+  mapfile -t m < <(column mass)
+  near "${m[0]}" 9e20 && near "${m[1]}" 3e20
+  [ "$(column near | tr '\n' ' ')" = "2 1 " ]
+  [ "$(column water | head -1)" = 30 ] && [ "$(column water | tail -1)" = 0 ]
+  near "$(column ice_from_0 | head -1)" 2.7e20 && [ "$(column from_0 | tail -1)" = 0 ]
+}
+
+@test "v_esc is eq. 74: the mass of the nearer fragments" {
+  fof two.h5 >table
+  [ "$(column v_esc | head -1)" = 0 ] # the larger one is nearer to the barycentre: nothing within
+  near "$(column v_esc | tail -1)" "$(awk -v m=9e20 -v r="$(column r | tail -1)" 'BEGIN { printf "%.9g", sqrt(2 * 6.6743e-11 * m / r) }')"
+}
+
+@test "on its way to the collision the smaller body is accreted, fast or not" {
+  fof two.h5 >table
+  [ "$(column fate | tail -1)" = accreted ]
+  awk -v x="$(column v_rel/v_esc | tail -1)" 'BEGIN { exit !(x > 1) }'
+}
+
+@test "momenta of the fragments cancel in the barycentric frame" {
+  fof two.h5 >table
+  paste <(column mass) <(column vx) | awk '{ p += $1 * $2; q += $1 * ($2 < 0 ? -$2 : $2) } END { exit !(p * p < 1e-12 * q * q) }'
+}
+
+@test "filters by density, material and size" {
+  [ "$(fof --min-density 0.75rho0 two.h5 | grep -vc '^#')" = 2 ]
+  [ "$(fof --min-density 2000 two.h5 | column n /dev/stdin | awk '{ n += $1 } END { print n }')" -lt 2000 ]
+  [ "$(fof --min-density 2g/cc two.h5 | grep -v '^#')" = "$(fof --ignore ice two.h5 | grep -v '^#')" ]
+  [ "$(fof --min-particles 1000 two.h5 | grep -vc '^#')" = 1 ]
+  run fof --min-density 1.5rho0 two.h5
+  [ "$status" = 0 ] && [[ ${lines[2]} == "# id"* ]] && [ "${#lines[@]}" = 3 ]
+}
+
+@test "ids are written, and the same command gives the same bytes for any number of threads" {
+  OMP_NUM_THREADS=1 fof -o ids1.h5 two.h5 >t1
+  OMP_NUM_THREADS=3 fof -o ids2.h5 two.h5 >t2
+  cmp t1 t2
+  OMP_NUM_THREADS=3 fof -o ids1.h5 two.h5 >/dev/null && mv ids1.h5 again.h5 && OMP_NUM_THREADS=1 fof -o ids1.h5 two.h5 >/dev/null
+  cmp ids1.h5 again.h5
+  render --centre fragment:2 -o x.png ids1.h5
+  run render --centre fragment:3 -o y.png ids1.h5
+  [ "$status" = 1 ] && [ "$output" = "render: 'ids1.h5': nothing belongs to fragment:3" ] && [ ! -e y.png ]
+}
+
+@test "from a pipe" {
+  [ "$(fof <two.h5 | grep -v '^#')" = "$(fof two.h5 | grep -v '^#')" ]
+}
+
+fails() { # fails STATUS TEXT COMMAND...: one line that contains the text
+  local want=$1 text=$2
+  shift 2
+  run "$@"
+  echo "$status: $output"
+  [ "$status" = "$want" ] && [ "${#lines[@]}" = 1 ] && [[ $output == "fof: "*"$text"* ]]
+}
+
+@test "bad input is one line" {
+  echo text >text.h5 && head -c 20000 two.h5 >short.h5
+  fails 1 "lacks field 'Damage' (made by weibull)" fof --max-damage 1 two.h5
+  fails 1 "no material 'icy' in this file (did you mean 'ice'?)" fof --ignore icy two.h5
+  fails 1 "'none.h5'" fof none.h5
+  fails 1 "'text.h5'" fof text.h5
+  fails 1 "'short.h5'" fof short.h5
+  fails 1 "" bash -c 'fof </dev/null'
+  fails 1 "No space left" bash -c 'fof two.h5 >/dev/full'
+  fails 1 "" fof -o no/such/folder/a.h5 two.h5
+  fails 1 "2kg" fof --min-density 2kg two.h5
+  fails 2 "--link must be positive" fof --link 0 two.h5
+  fails 2 "--min-particles" fof --min-particles 0 two.h5
+  fails 2 "name a file" fof -o - two.h5
+}

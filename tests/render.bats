@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# render: sizes, determinism, fields, ranges, errors that leave nothing behind.
+
+setup_file() {
+  cd "$BATS_FILE_TMPDIR"
+  mksphere -n 1500 --mass 9e20 --layer basalt:0.7 --layer ice:0.3 -o a.h5
+  mksphere -n 500 --mass 3e20 --layer basalt:1 -o b.h5
+  collide a.h5 b.h5 --angle 40deg --speed 1.5vesc --distance 3 -o two.h5
+}
+setup() { cd "$BATS_FILE_TMPDIR"; }
+
+# size FILE: "width height" of a PNG, from its header.
+size() {
+  [ "$(head -c 8 "$1" | od -An -tx1)" = " 89 50 4e 47 0d 0a 1a 0a" ] || return 1
+  od -An -tu1 -j16 -N8 "$1" | awk '{ print $3 * 256 + $4, $7 * 256 + $8 }'
+}
+
+@test "every view, plane and map draws a picture of the size asked for" {
+  for view in cut slice projection surface; do
+    render --size 320x200 --view $view -o $view.png two.h5
+    [ "$(size $view.png)" = "320 200" ]
+  done
+  ! cmp -s cut.png surface.png && ! cmp -s cut.png slice.png && ! cmp -s slice.png projection.png
+  for plane in xz yz; do render --size 320x200 --plane $plane -o $plane.png two.h5; ! cmp -s cut.png $plane.png; done
+  for map in viridis magma inferno polar; do
+    render --size 320x200 --color Density --map $map -o $map.png two.h5
+    [ "$(size $map.png)" = "320 200" ]
+  done
+  ! cmp -s viridis.png magma.png
+}
+
+@test "the same bytes again, for any number of threads, to a file or a pipe" {
+  for view in cut slice projection surface; do
+    OMP_NUM_THREADS=1 render --size 320x200 --view $view -c Density -o 1.png two.h5
+    OMP_NUM_THREADS=3 render --size 320x200 --view $view -c Density two.h5 >2.png
+    render --size 320x200 --view $view -c Density -o - <two.h5 >3.png
+    cmp 1.png 2.png && cmp 1.png 3.png
+  done
+}
+
+@test "fields, components, lengths, kinds" {
+  for field in Velocities '|Velocities|' Velocities.x Velocities.z MaterialID BodyID ParticleIDs InternalEnergy SmoothingLength; do
+    render --size 320x200 --color "$field" -o "f.png" two.h5
+  done
+  render --size 320x200 -c Velocities -o 1.png two.h5 && render --size 320x200 -c Velocities.x -o 2.png two.h5
+  ! cmp -s 1.png 2.png
+  render --size 320x200 --view projection -c ColumnDensity --log -o 3.png two.h5
+}
+
+@test "ranges: units, open ends, given equals seen" {
+  render --size 320x200 -c Density -r 0:3g/cc -o 1.png two.h5 && render --size 320x200 -c Density -r 0:3000 -o 2.png two.h5
+  cmp 1.png 2.png
+  render --size 320x200 -c Density -r 500: -o 3.png two.h5 && render --size 320x200 -c Density -r :3000 -o 4.png two.h5
+  ! cmp -s 1.png 3.png && ! cmp -s 1.png 4.png
+}
+
+@test "panels" {
+  render --size 600x200 --panels 3x1 -o 1.png a.h5 b.h5 two.h5
+  [ "$(size 1.png)" = "600 200" ]
+  render --size 600x400 -o 2.png a.h5 b.h5 two.h5 # as square as it gets
+}
+
+fails() {
+  local want=$1 text=$2
+  shift 2
+  rm -f x.png
+  run "$@"
+  echo "$status: $output"
+  [ "$status" = "$want" ] && [ "${#lines[@]}" = 1 ] && [[ $output == "render: "*"$text"* ]] && [ ! -e x.png ] &&
+    [ -z "$(find . -name '*x.png*')" ]
+}
+
+@test "bad input is one line, and no picture" {
+  echo text >text.h5
+  fails 1 "'two.h5' has no field 'Densty' (did you mean 'Density'?)" render -c Densty -o x.png two.h5
+  fails 1 "lacks field 'Damage' (made by weibull)" render -c Damage -o x.png two.h5
+  fails 1 "field 'Velocities' has no component 'w'" render -c Velocities.w -o x.png two.h5
+  fails 1 "field 'Density' has no component 'x'" render -c Density.x -o x.png two.h5
+  fails 1 "needs --view projection" render -c ColumnDensity -o x.png two.h5
+  fails 1 "'none.h5'" render -o x.png none.h5
+  fails 1 "'text.h5'" render -o x.png two.h5 text.h5
+  fails 1 "" bash -c 'render -o x.png </dev/null'
+  fails 1 "" render -o no/such/folder/x.png two.h5
+  fails 1 "No space left" bash -c 'render two.h5 >/dev/full'
+  fails 1 "nothing belongs to body:7" render -C body:7 -o x.png two.h5
+  fails 1 "too small" render -s 64x64 --panels 4x4 -o x.png two.h5
+  fails 1 "1,2" render -C 1,2 -o x.png two.h5
+  fails 2 "--size" render -s 0x10 -o x.png two.h5
+  fails 2 "--size" render -s 10 -o x.png two.h5
+  fails 2 "no room for 2 snapshots" render -P 1x1 -o x.png a.h5 b.h5
+  fails 2 "--range: 5:1 is empty" render -c Density -r 5:1 -o x.png two.h5
+  fails 2 "--range" render -c Density -r 5 -o x.png two.h5
+  fails 2 "3km" render -c Density -r 0:3km -o x.png two.h5
+  fails 2 "names kinds" render -r 0:1 -o x.png two.h5
+  fails 2 "starts above 0" render -c Density -l -r 0:1 -o x.png two.h5
+  fails 2 "--extent" render -e 0 -o x.png two.h5
+}
