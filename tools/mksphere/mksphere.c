@@ -196,15 +196,15 @@ static Parts *particles(Layer *layer, const LatticeBall *ball, double spacing, d
 
 static void summary(const Layer *layer, const Parts *p, double spacing, double h)
 {
-  static const char *const unit[] = {"", "kg/m^2", "kg/m", "kg"};
+  const char *unit = p->dimension == 3 ? "kg" : p->dimension == 2 ? "kg/m" : "kg/m^2";
   char radius[64], step[64], support[64];
   fprintf(stderr, "mksphere: %ld particles, mass %.6g %s, radius %s, spacing %s, support %s\n",
-          p->n, o.mass, unit_length_text(o.radius, radius, sizeof radius),
+          p->n, o.mass, unit, unit_length_text(o.radius, radius, sizeof radius),
           unit_length_text(spacing, step, sizeof step),
           unit_length_text(h, support, sizeof support));
   for (int k = 0; k < o.layers.n; k++)
     fprintf(stderr, "mksphere: layer %d, %s: %ld particles, mass %.6g %s, density %.6g kg/m^3\n",
-            k + 1, layer[k].name, layer[k].end - (k ? layer[k - 1].end : 0), layer[k].mass,
+            k + 1, layer[k].name, layer[k].end - (k ? layer[k - 1].end : 0), layer[k].mass, unit,
             layer[k].rho);
 }
 
