@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include "../lib/material.h"
-#include "../lib/progress.h"
 #include "sim.h"
 
 static const char *const bad_names[] = {"nothing",
@@ -15,23 +14,6 @@ static const char *const bad_names[] = {"nothing",
                                         "smoothing length is not positive",
                                         "acceleration is not finite",
                                         "stress is not finite"};
-
-static const struct integrator *const integrators[] = {
-#define SIM_INTEGRATOR(WORD, NAME) &integrator_##NAME,
-    INTEGRATORS(SIM_INTEGRATOR)
-#undef SIM_INTEGRATOR
-};
-
-const struct integrator *integrator_of(int index) { return integrators[index]; }
-
-void backend_begin(Sim *sim, int timer) { sim->timer[timer].start = progress_clock(); }
-
-void backend_end(Sim *sim, int timer)
-{
-  BackendTimer *t = &sim->timer[timer];
-  t->spent += progress_clock() - t->start;
-  t->calls++;
-}
 
 Step sim_step(const Sim *sim, double dt)
 {

@@ -6,18 +6,6 @@
 #include <math.h>
 #include "../sim.h"
 
-int integrator_rates(Sim *sim, Step *k, Err *err)
-{
-  sim->b->pass(sim, PASS_STILL, k);
-  if (sim->b->search(sim, err)) return -1;
-  if (k->density != PARAM_CONTINUITY) sim->b->density(sim);
-  sim->b->pass(sim, PASS_STILL, k);
-  sim->b->gradient(sim);
-  sim->b->pass(sim, PASS_LOCAL, k);
-  sim->b->force(sim);
-  return sim->b->gravity(sim, err);
-}
-
 static int start(Sim *sim, Err *err)
 {
   Step k = sim_step(sim, 0);
