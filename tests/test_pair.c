@@ -2,6 +2,7 @@
 /* The pair terms (pair.h) and the loops that sum them. Signs, where 001 eq. 30, 31, 34, 35, 43
  * as printed fail (validation.md C2); momentum and energy of every pair; the stamped loops of
  * the backend against all pairs; the corrected gradient of a linear field. */
+#include <omp.h>
 #include "lab.h"
 #include "../lib/rng.h"
 
@@ -308,5 +309,6 @@ int main(void)
   const struct CMUnitTest tests[] = {cmocka_unit_test(repulsion), cmocka_unit_test(viscosity),
                                      cmocka_unit_test(pairs_balance), cmocka_unit_test(loops),
                                      cmocka_unit_test(linear_field)};
+  omp_set_num_threads(1); /* hundreds of tiny loops */
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
