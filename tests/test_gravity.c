@@ -229,8 +229,8 @@ static void errors_of_the_tree(void **state)
     for (int soft = 0; soft < 2; soft++) {
       Lab l = lab_new(cloud_new(shapes[k], 8000, 5, 2), soft);
       const Errors half = lab_run(&l, 0.5, 1, soft), e = lab_run(&l, 0.7, 1, soft);
-      assert_true(e.median < 1e-3 && e.p99 < 1e-2 && e.phi < 1e-2);
-      assert_true(half.median < 8e-4 && half.p90 < 2e-3);
+      assert_true(e.median < 1e-3 && e.p99 < 1e-2 && e.phi < 2e-3);
+      assert_true(half.median < 8e-4 && half.p90 < 2e-3 && half.phi < 3e-4);
       double p[3] = {0}, mass = 0, top = 0, energy[2] = {0};
       for (long i = 0; i < l.c.n; i++) {
         for (int d = 0; d < 3; d++) p[d] += l.c.m[i] * l.a[3 * i + d];
@@ -248,10 +248,12 @@ static void error_falls_as_theta_to_the_fourth(void **state)
 {
   (void)state;
   Lab l = lab_new(cloud_new(SPHERE, 20000, 6, 1), 0);
-  const double low = lab_run(&l, 0.4, 0, 0).median, high = lab_run(&l, 0.8, 0, 0).median;
-  const double slope = log(high / low) / log(2);
-  if (slope < 3.4 || slope > 4.8) print_message("slope %g\n", slope);
-  assert_true(slope >= 3.4 && slope <= 4.8);
+  const Errors low = lab_run(&l, 0.4, 0, 0), high = lab_run(&l, 0.8, 0, 0);
+  const double slope = log(high.median / low.median) / log(2),
+               phi = log(high.phi / low.phi) / log(2);
+  if (slope < 3.4 || slope > 4.8 || phi < 3.4 || phi > 4.8)
+    print_message("slopes %g %g\n", slope, phi);
+  assert_true(slope >= 3.4 && slope <= 4.8 && phi >= 3.4 && phi <= 4.8);
   lab_free(&l);
 }
 
@@ -268,19 +270,19 @@ static void soft_targets_open_dense_nodes(void **state)
   lab_free(&l);
 }
 
-/* Single precision: 1e-5 of the mean |a|, for SI values from a pebble to a galaxy and at an offset.
- * */
+/* Single precision: 1e-5 of the mean |a|, for SI values from a pebble to a galaxy, a thousand radii
+ * off the origin, and beside a particle 1e4 radii away, also when there are few. */
 static void single_precision_of_any_size(void **state)
 {
   (void)state;
-  const double length[] = {1e-9, 1, 1e15}, mass[] = {1e-30, 1, 1e25};
+  const double length[] = {1e-9, 1, 1e15}, mass[] = {1e-30, 1, 1e25}, shift[] = {0, 1e9, 0};
   const CloudShape shapes[] = {SPHERE, TWO_BODIES, CLUSTERS, LINE, OUTLIER};
   for (int s = 0; s < 5; s++)
-    for (int k = 0; k < 3; k++) {
-      Cloud c = cloud_new(shapes[s], 2000, 8, 3);
+    for (int k = 0; k < 6; k++) {
+      Cloud c = cloud_new(shapes[s], k / 3 ? 2000 : 17, 8, 3);
       for (long i = 0; i < c.n; i++) {
-        c.m[i] *= mass[k], c.h[i] *= length[k];
-        for (int d = 0; d < 3; d++) c.x[3 * i + d] *= length[k];
+        c.m[i] *= mass[k % 3], c.h[i] *= length[k % 3];
+        for (int d = 0; d < 3; d++) c.x[3 * i + d] = c.x[3 * i + d] * length[k % 3] + shift[k % 3];
       }
       Lab l = lab_new(c, 1);
       lab_run(&l, 0.7, 0, 1);
