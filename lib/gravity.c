@@ -96,7 +96,7 @@ int gravity_tree(const Tree *t, const double *x, const double *m, const double *
                  const GravityOptions *o, double *a, double *phi, Err *err)
 {
   const Bodies p = {x, m, h, a, phi};
-  const Scale s = {.length = power_of_2(t->edge),
+  const Scale s = {.length = power_of_2(fmax(t->edge, t->node[0].hmax)),
                    .mass = power_of_2(t->node[0].mass),
                    .G = o->G,
                    .near = o->single ? 1e-10 : 1e-80};

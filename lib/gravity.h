@@ -25,9 +25,10 @@ typedef struct {
 /* gravity_tree: accelerations a [n][3] (overwritten) and potentials phi [n] (per mass, without
  * self-energy; may be NULL) of particles in tree order; x, m, h are those the tree was built with.
  * h [n] supports (NULL: none; then coincident particles do not act on each other). The result does
- * not depend on the number of threads. single: lengths in root edges, masses in total masses, so
- * that SI values neither overflow nor vanish; the error is below 1e-5 of the mean |a|, except that
- * unsoftened pairs closer than 1e-10 root edges do not act on each other. -1: no memory. */
+ * not depend on the number of threads. single: lengths in root edges or in the largest h, masses in
+ * total masses, so that SI values neither overflow nor vanish; the error is below 1e-5 of the mean
+ * |a|, except that unsoftened pairs closer than 1e-10 of it do not act on each other. -1: no
+ * memory. */
 int gravity_tree(const Tree *t, const double *x, const double *m, const double *h,
                  const GravityOptions *o, double *a, double *phi, Err *err);
 

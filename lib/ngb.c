@@ -164,8 +164,8 @@ static void pack_ranges(Share *w, const Search *s, const TreeGroup *g, long *sel
     for (long i = 0; i < m; i++) w->j[n + i] = (uint32_t)(b + i);
     n += m;
   }
-  for (; n & (PAD - 1); n++) /* never within reach; squares are finite */
-    for (int d = 0; d < 7; d++) w->pack[d * width + n] = d == 3 ? 0 : 1e18f;
+  for (; n & (PAD - 1); n++) /* never within reach */
+    for (int d = 0; d < 7; d++) w->pack[d * width + n] = d == 3 ? 0 : INFINITY;
 }
 
 /* An upper limit for the rounding error of a distance between packed particles: coordinates are at

@@ -293,6 +293,18 @@ static void single_precision_of_any_size(void **state)
     }
 }
 
+/* The same where all particles lie within 1e-15 of their h. */
+static void single_precision_far_below_h(void **state)
+{
+  (void)state;
+  Cloud c = cloud_new(SPHERE, 300, 11, 1);
+  for (long i = 0; i < 3 * c.n; i++) c.x[i] *= 1e-15;
+  Lab l = lab_new(c, 1);
+  const Errors e = lab_run(&l, 0.7, 1, 1);
+  assert_true(e.max < 1e-5 && e.phi < 1e-5);
+  lab_free(&l);
+}
+
 static void threads_do_not_matter(void **state)
 {
   (void)state;
@@ -344,6 +356,7 @@ int main(void)
       cmocka_unit_test(error_falls_as_theta_to_the_fourth),
       cmocka_unit_test(soft_targets_open_dense_nodes),
       cmocka_unit_test(single_precision_of_any_size),
+      cmocka_unit_test(single_precision_far_below_h),
       cmocka_unit_test(threads_do_not_matter),
       cmocka_unit_test(potential_is_optional),
   };

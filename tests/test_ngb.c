@@ -128,6 +128,20 @@ static void lattice_shells(void **state)
   tree_free(&t), ngb_free(&g);
 }
 
+/* Particles much closer together than h, 1e-25 of it: all are neighbours, and nothing else is. */
+static void far_below_h(void **state)
+{
+  (void)state;
+  Tree t = {0};
+  Ngb g = {0};
+  Cloud c = cloud_new(SPHERE, 300, 14, 1);
+  for (long i = 0; i < 3 * c.n; i++) c.x[i] *= 1e-25;
+  assert_int_equal(tree_build(&t, c.n, c.x, NULL, c.h, &err), 0);
+  assert_int_equal(ngb_search(&g, &t, c.x, NULL, c.h, 1, &err), 0);
+  assert_true(check_lists(&g, &c, NULL, 1) == c.n * (c.n - 1));
+  tree_free(&t), ngb_free(&g), cloud_free(&c);
+}
+
 static void threads_do_not_matter(void **state)
 {
   (void)state;
@@ -278,6 +292,7 @@ int main(void)
       cmocka_unit_test(refitted_trees_serve),
       cmocka_unit_test(the_limit_is_sharp),
       cmocka_unit_test(lattice_shells),
+      cmocka_unit_test(far_below_h),
       cmocka_unit_test(threads_do_not_matter),
       cmocka_unit_test(bad_input_is_refused),
       cmocka_unit_test(point_visits_all_within_reach),
