@@ -35,7 +35,7 @@
 #define CHECKPOINT_FIELDS(F) \
   F(double,  a,      3, "Acceleration",     "m/s^2",    "solver",   "acceleration") \
   F(double,  dudt,   1, "EnergyRate",       "W/kg",     "solver",   "du/dt of the last force loop") \
-  F(double,  dqdt,   1, "ViscousHeating",   "W/kg",     "solver",   "viscous part of du/dt") \
+  F(double,  dqdt,   1, "ViscousHeating",   "W/kg",     "solver",   "du/dt without the local work: viscosity, mostly") \
   F(double,  divv,   1, "VelocityDivergence", "1/s",    "solver",   "divergence of the velocity, uncorrected sum") \
   F(double,  delta,  1, "NumberDensity",    "1/m^3",    "solver",   "kernel sum over neighbours (miscible density)") \
   F(double,  signal, 1, "SignalSpeed",      "m/s",      "solver",   "largest signal velocity to a neighbour") \

@@ -192,31 +192,39 @@ HD void pass_kick(const State *s, const Step *k, long i)
   for (int d = 0; d < 3; d++) s->v[3 * i + d] += s->a[3 * i + d] * k->dt;
 }
 
-/* passes_smoothing: h after dt: it follows the density (004 eq. 2.36), or also the number of
- * neighbours (001 eq. 73, at most 5 % a step). */
-HD double passes_smoothing(const State *s, const Step *k, long i)
+/* passes_follow: h after dt as it follows the density (004 eq. 2.36), within its limits. */
+HD double passes_follow(const State *s, const Step *k, long i, double h, double dt)
 {
-  double h = s->h[i] * exp(s->divv[i] * k->dt / s->dimension), want;
-  if (k->smoothing == 0) return s->h[i];
-  if (k->smoothing == 2 && k->dt > 0) {
-    want = 0.5 * (1 + pow(k->neighbours / (s->nngb[i] > 0 ? s->nngb[i] : 1), 1. / s->dimension));
-    h *= want > 1.05 ? 1.05 : want < 0.95 ? 0.95 : want;
-  }
+  h *= exp(s->divv[i] * dt / s->dimension);
   return h < k->h_min ? k->h_min : h > k->h_max ? k->h_max : h;
 }
 
-/* drift: x to the end of the step, y at its middle for loop A, density predicted there, h, and the
- * velocity predicted for loop B. */
+/* passes_crowd: the factor on h that goes towards the wanted number of neighbours (001 eq. 73), at
+ * most 5 % a step. */
+HD double passes_crowd(const State *s, const Step *k, long i)
+{
+  int n = s->nngb[i] > 0 ? s->nngb[i] : 1;
+  double want = 0.5 * (1 + pow(k->neighbours / n, 1. / s->dimension));
+  if (k->smoothing != 2) return 1;
+  return want > 1.05 ? 1.05 : want < 0.95 ? 0.95 : want;
+}
+
+/* drift: x to the end of the step, y at its middle for loop A, density and h predicted there, h at
+ * the end with the divergence of the step before, and the velocity predicted for loop B. */
 HD void pass_drift(const State *s, const Step *k, long i)
 {
-  double half = 0.5 * k->dt;
+  double half = 0.5 * k->dt, h;
   for (int d = 0; d < 3; d++) {
     s->y[3 * i + d] = s->x[3 * i + d] + s->v[3 * i + d] * half;
     s->x[3 * i + d] += s->v[3 * i + d] * k->dt;
     s->vp[3 * i + d] = s->v[3 * i + d] + s->a[3 * i + d] * half;
   }
   s->rhoa[i] = s->rho[i] * exp(-s->divv[i] * half);
-  s->h[i] = passes_smoothing(s, k, i);
+  s->ha[i] = s->h[i];
+  if (k->smoothing == 0) return;
+  h = s->h[i] * passes_crowd(s, k, i);
+  s->ha[i] = passes_follow(s, k, i, h, half);
+  s->h[i] = passes_follow(s, k, i, h, k->dt);
 }
 
 /* passes_density: rho after dt by continuity; with a kernel sum it is there already. Never less than a lone particle's own kernel
@@ -231,15 +239,16 @@ HD void passes_density(const State *s, const Step *k, long i)
   if (s->rho[i] < floor) s->rho[i] = floor;
 }
 
-/* advance: after loop A, takes rho, S and D to the end of the step; the energy there is predicted
- * from the local work, once with the old pressure and once with the mean of both; then EOS, yield,
- * damage, and what the force loop needs. */
+/* advance: after loop A, takes rho, h, S and D to the end of the step (ha^2/h is the h it began
+ * with); the energy there is predicted from the local work, once with the old pressure and once
+ * with the mean of both; then EOS, yield, damage, and what the force loop needs. */
 HD void pass_advance(const State *s, const Step *k, long i)
 {
   const double *g = &s->g[9 * i], mu = k->strength ? s->material[s->mat[i]].mu : 0;
   int solid = mu > 0;
   double p = s->p[i], u = s->u[i], heat = k->energy == 0 ? s->dqdt[i] : 0, work;
   Sym old = passes_stress(&s->s[6 * i]), mid = old;
+  if (k->smoothing) s->h[i] = passes_follow(s, k, i, s->ha[i] * s->ha[i] / s->h[i], k->dt);
   passes_density(s, k, i);
   if (solid) {
     Sym now = passes_elastic(old, g, mu, k->dt);
@@ -279,10 +288,11 @@ HD void passes_damp(const State *s, const Step *k, long i, double *acc)
 }
 
 /* finish: after loop B and gravity: closes the kick and the energy, keeps the rates for the next
- * step. */
+ * step: du, and what of it is not local work (viscosity, mostly), so that the next prediction of
+ * the energy is as du and stays of second order. */
 HD void pass_finish(const State *s, const Step *k, long i)
 {
-  double half = 0.5 * k->dt;
+  double half = 0.5 * k->dt, mu = k->strength ? s->material[s->mat[i]].mu : 0;
   if (k->damping > 0) passes_damp(s, k, i, &s->acc[3 * i]);
   for (int d = 0; d < 3; d++) {
     s->a[3 * i + d] = s->acc[3 * i + d];
@@ -292,7 +302,8 @@ HD void pass_finish(const State *s, const Step *k, long i)
   if (k->energy == 1) s->u[i] = s->ue[i];
   if (s->u[i] < k->energy_floor) s->u[i] = k->energy_floor;
   s->dudt[i] = s->du[i];
-  s->dqdt[i] = s->dq[i];
+  s->dqdt[i] = s->du[i] - passes_work(s->p[i], passes_stress(&s->s[6 * i]), s->damage[i],
+                                      s->divv[i], &s->g[9 * i], s->rho[i], mu > 0);
   if (s->p[i] > s->pmax[i]) s->pmax[i] = s->p[i];
 }
 
@@ -301,7 +312,7 @@ HD void pass_still(const State *s, const Step *k, long i)
 {
   (void)k;
   for (int d = 0; d < 3; d++) s->y[3 * i + d] = s->x[3 * i + d], s->vp[3 * i + d] = s->v[3 * i + d];
-  s->rhoa[i] = s->rho[i];
+  s->rhoa[i] = s->rho[i], s->ha[i] = s->h[i];
 }
 
 /* local: EOS, yield and damage of the present state, without advancing it; the rates of S and of

@@ -17,7 +17,8 @@
   W(int32_t, nflaw,  1, "number of thresholds") \
   W(double,  y,      3, "position at which loop A is evaluated [m]") \
   W(double,  vp,     3, "velocity that the force loop sees [m/s]") \
-  W(double,  rhoa,   1, "density at loop A [kg/m^3]")
+  W(double,  rhoa,   1, "density at loop A [kg/m^3]") \
+  W(double,  ha,     1, "h at loop A [m]")
 #define WORK_FIELDS(W) \
   W(double,  g,      9, "velocity gradient dv_a/dx_b, corrected [1/s]") \
   W(double,  du,     1, "energy rate of this evaluation [W/kg]") \

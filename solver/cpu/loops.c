@@ -27,7 +27,7 @@ static double *pack_reserve(Pack *p, long n, int columns)
 static PairFlow flow_of(const State *s, long i)
 {
   PairFlow f = {s->y[3 * i],     s->y[3 * i + 1], s->y[3 * i + 2], s->v[3 * i],
-                s->v[3 * i + 1], s->v[3 * i + 2], s->h[i],         s->m[i] / s->rhoa[i]};
+                s->v[3 * i + 1], s->v[3 * i + 2], s->ha[i],        s->m[i] / s->rhoa[i]};
   return f;
 }
 
@@ -163,14 +163,15 @@ forces(const Sim *sim, Pack *b, long from, long to, int kern, int line, int soli
 }
 
 /* Kernel sums at x over a range: rho = sum m W and delta = sum W, the particle itself included
- * (001 eq. 28, 004 eq. 2.48-2.49). */
+ * (001 eq. 28, 004 eq. 2.48-2.49); for loop A the mean of the density before and this one. */
 static inline __attribute__((always_inline)) void densities(const Sim *sim, long from, long to,
                                                             int kern, int line)
 {
   const Cpu *c = sim->own;
   const State *s = &sim->s;
   for (long i = from; i < to; i++) {
-    double w = pair_weight(kern, line, &c->run, 0, s->h[i]), delta = w, rho = s->m[i] * w;
+    double w = pair_weight(kern, line, &c->run, 0, s->h[i]), delta = w, rho = s->m[i] * w,
+           before = s->rho[i];
     for (int64_t k = c->ngb.start[i]; k < c->ngb.start[i + 1]; k++) {
       long j = c->ngb.list[k];
       const double *a = &s->x[3 * i], *x = &s->x[3 * j];
@@ -181,6 +182,7 @@ static inline __attribute__((always_inline)) void densities(const Sim *sim, long
     }
     s->delta[i] = delta;
     s->rho[i] = sim->miscible ? s->m[i] * delta : rho;
+    s->rhoa[i] = sqrt(before * s->rho[i]);
   }
 }
 

@@ -23,8 +23,8 @@ static int step(Sim *sim, double *dt, Err *err)
   k.dt = *dt;
   sim->b->pass(sim, PASS_DRIFT, &k);
   if (sim->b->search(sim, err)) return -1;
-  sim->b->gradient(sim);
   if (k.density != PARAM_CONTINUITY) sim->b->density(sim);
+  sim->b->gradient(sim);
   sim->b->pass(sim, PASS_ADVANCE, &k);
   sim->b->force(sim);
   if (sim->b->gravity(sim, err)) return -1;
