@@ -12,8 +12,8 @@
 #include "unit.h"
 
 enum { ROUNDS = 100 };
-#define CORE                                                                                       \
-  0.1 /* mass fraction of a fragment that starts a body, and of a body that carries its frame */
+/* Mass fraction of a fragment that starts a body, and of a body that carries its frame. */
+#define CORE 0.1
 
 /* Candidates, by ascending particle id, and who of them is a member. */
 typedef struct {

@@ -12,11 +12,11 @@
 #include "gravity.h"
 #include "unit.h"
 
-#define PI     3.14159265358979323846
-#define DIRECT 512 /* up to here n^2 sums are faster than a tree */
-#define GHOST                                                                                      \
-  1e-60 /* mass of a particle that only feels, in units of its own: invisible in double precision  \
-         */
+#define PI 3.14159265358979323846
+/* Up to here n^2 sums are faster than a tree. */
+#define DIRECT 512
+/* Mass of a particle that only feels, in units of its own: invisible in double precision. */
+#define GHOST 1e-60
 
 /* clang-format off */
 /* X(name, unit, value) of a Group *g in a system Group *s */

@@ -21,10 +21,13 @@ near() { awk -v a="$1" -v b="$2" 'BEGIN { d = a - b; exit !(d * d <= 1e-12 * b *
   fof two.h5 >table
   [ "$(grep -vc '^#' table)" = 2 ]
   mapfile -t m < <(column mass)
-  near "${m[0]}" 9e20 && near "${m[1]}" 3e20
+  near "${m[0]}" 9e20
+  near "${m[1]}" 3e20
   [ "$(column near | tr '\n' ' ')" = "2 1 " ]
-  [ "$(column water | head -1)" = 30 ] && [ "$(column water | tail -1)" = 0 ]
-  near "$(column ice_from_0 | head -1)" 2.7e20 && [ "$(column from_0 | tail -1)" = 0 ]
+  [ "$(column water | head -1)" = 30 ]
+  [ "$(column water | tail -1)" = 0 ]
+  near "$(column ice_from_0 | head -1)" 2.7e20
+  [ "$(column from_0 | tail -1)" = 0 ]
 }
 
 @test "v_esc is eq. 74: the mass of the nearer fragments" {
@@ -50,18 +53,24 @@ near() { awk -v a="$1" -v b="$2" 'BEGIN { d = a - b; exit !(d * d <= 1e-12 * b *
   [ "$(fof --min-density 2g/cc two.h5 | grep -v '^#')" = "$(fof --ignore ice two.h5 | grep -v '^#')" ]
   [ "$(fof --min-particles 1000 two.h5 | grep -vc '^#')" = 1 ]
   run fof --min-density 1.5rho0 two.h5
-  [ "$status" = 0 ] && [[ ${lines[2]} == "# id"* ]] && [ "${#lines[@]}" = 3 ]
+  [ "$status" = 0 ]
+  [[ ${lines[2]} == "# id"* ]]
+  [ "${#lines[@]}" = 3 ]
 }
 
 @test "ids are written, and the same command gives the same bytes for any number of threads" {
   OMP_NUM_THREADS=1 fof -o ids1.h5 two.h5 >t1
   OMP_NUM_THREADS=3 fof -o ids2.h5 two.h5 >t2
   cmp t1 t2
-  OMP_NUM_THREADS=3 fof -o ids1.h5 two.h5 >/dev/null && mv ids1.h5 again.h5 && OMP_NUM_THREADS=1 fof -o ids1.h5 two.h5 >/dev/null
+  OMP_NUM_THREADS=3 fof -o ids1.h5 two.h5 >/dev/null
+  mv ids1.h5 again.h5
+  OMP_NUM_THREADS=1 fof -o ids1.h5 two.h5 >/dev/null
   cmp ids1.h5 again.h5
   render --centre fragment:2 -o x.png ids1.h5
   run render --centre fragment:3 -o y.png ids1.h5
-  [ "$status" = 1 ] && [ "$output" = "render: 'ids1.h5': nothing belongs to fragment:3" ] && [ ! -e y.png ]
+  [ "$status" = 1 ]
+  [ "$output" = "render: 'ids1.h5': nothing belongs to fragment:3" ]
+  [ ! -e y.png ]
 }
 
 @test "from a pipe" {

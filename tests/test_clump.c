@@ -104,9 +104,9 @@ static void hot_sphere(void **state)
   for (long i = 0; i < p->n; i++) p->u[i] = 0, p->p[i] = 1.6 * depth * RHO;
   assert_int_equal(clump_find(p, &thermal, id, NULL), 1);
   assert_int_equal(clump_find(p, &enthalpy, id, NULL), 0);
-  for (long i = 0; i < p->n; i++)
-    p->p[i] = -1.6 * depth * RHO; /* tension holds nothing together or apart */
-  assert_int_equal(clump_find(p, &enthalpy, id, NULL), 1);
+  for (long i = 0; i < p->n; i++) /* tension holds nothing together */
+    p->p[i] = -1.6 * depth * RHO, p->u[i] = 1.6 * depth;
+  assert_int_equal(clump_find(p, &enthalpy, id, NULL), 0);
   free(p->p), p->p = NULL;
   assert_int_equal(clump_levels(p, list, p->n, 0.5, level, NULL), 0);
   assert_true(isnan(level[2]) && !isnan(level[1]));

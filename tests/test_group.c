@@ -87,7 +87,7 @@ static void composition(void **state)
   CLOSE(g.damaged, full / mass, 1e-12), CLOSE(g.damage, 0.5 + 0.5 * full / mass, 1e-12);
   assert_true(from_1 == 0);
   const char *const wet[] = {"ice", "Ice", "water", "porous_ice", "ice-ih", "H2O.liquid"};
-  const char *const dry[] = {"rice", "iceland_basalt", "basalt", "nice", "", "waterless"};
+  const char *const dry[] = {"rice", "iceland_basalt", "basalt", "nice", "h2", "waterless"};
   for (int k = 0; k < 6; k++) assert_true(group_is_water(wet[k]) && !group_is_water(dry[k]));
   p->body[7] = -1;
   group_free(&g);

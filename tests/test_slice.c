@@ -30,14 +30,14 @@ static Parts *cube(int dimension)
 static void see(const Parts *p, int kinds, double z)
 {
   Field f = {.value = quantity, .kinds = kinds};
-  Camera c = {.w = W, .h = W, .scale = W / 2., .centre = {0.5, 0.5, 0}, .offset = z};
+  Camera c = {.w = W, .h = W, .scale = W / 1.25, .centre = {0.5, 0.5, 0}, .offset = z};
   Window win = {W, W, W, value, shade};
   camera_plane(&c, "xy");
   assert_int_equal(slice_sample(&win, p, &f, &c, NULL), 0);
 }
 
 /* Position of a pixel's centre. */
-static double at(int i) { return 0.5 + (i + 0.5 - W / 2.) / (W / 2.); }
+static double at(int i) { return 0.5 + (i + 0.5 - W / 2.) / (W / 1.25); }
 
 static void constants_and_lines(void **state)
 {
@@ -52,9 +52,9 @@ static void constants_and_lines(void **state)
         for (int i = 0; i < W; i++) {
           double x = at(i), y = 1 - at(j), edge = fmin(fmin(x, 1 - x), fmin(y, 1 - y));
           float v = value[j * W + i];
-          if (edge > 0.02)
+          if (edge > 0.01)
             assert_false(isnan(v)); /* matter ends where half of the kernel is empty */
-          if (edge < -0.02) assert_true(isnan(v));
+          if (edge < -0.01) assert_true(isnan(v));
           if (edge > 0.12) assert_true(fabs(v - (line ? 7 + 2 * x - y : 4)) < (line ? 0.01 : 1e-5));
         }
     }
@@ -84,7 +84,7 @@ static void emptiness(void **state)
   p->n = 1, p->x[0] = p->x[1] = 0.5, p->x[2] = 0;
   see(p, 0, 0);
   for (int k = 0; k < W * W; k++) n += !isnan(value[k]);
-  assert_true(fabs((double)n - 3.14159 * pow(0.55 / M * W / 2, 2)) < 4);
+  assert_true(fabs((double)n - 3.14159 * pow(0.55 / M * W / 1.25, 2)) < 4);
   p->n = M * M * M;
   part_free(p);
 }

@@ -46,10 +46,10 @@ void image_fill(Image *im, int x, int y, int w, int h, Rgb c)
     for (int i = x; i < x + w; i++) image_blend(im, i, j, c, 1);
 }
 
-/* libpng reports through these; the message is kept, the jump goes back to write_png. */
+/* libpng reports through these; the reason is kept, the jump goes back to write_png. */
 static void failed(png_structp png, png_const_charp text)
 {
-  err_set(png_get_error_ptr(png), "%s", text);
+  err_set(png_get_error_ptr(png), "%s", errno ? strerror(errno) : text);
   png_longjmp(png, 1);
 }
 
@@ -59,10 +59,15 @@ static int write_png(const Image *im, FILE *f, Err *err)
 {
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, err, failed, warned);
   png_infop info = png ? png_create_info_struct(png) : NULL;
-  if (!info || setjmp(png_jmpbuf(png))) {
-    png_destroy_write_struct(&png, &info);
-    return info || png ? -1 : err_set(err, "out of memory");
+  if (!info) {
+    png_destroy_write_struct(&png, NULL);
+    return err_set(err, "out of memory");
   }
+  if (setjmp(png_jmpbuf(png))) {
+    png_destroy_write_struct(&png, &info);
+    return -1;
+  }
+  errno = 0;
   png_init_io(png, f);
   png_set_IHDR(png, info, (png_uint_32)im->w, (png_uint_32)im->h, 8, PNG_COLOR_TYPE_RGB,
                PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
