@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <omp.h>
 #include "cpu.h"
 
 /* alloc: the arrays of the state, zeroed; -1 for lack of memory. */
@@ -90,7 +91,8 @@ static int cpu_open(Sim *sim, const Parts *p, Err *err)
   c->order = malloc((n + 1) * sizeof *c->order);
   c->record = malloc((n + 1) * sizeof(PairBody));
   c->pull = malloc((n + 1) * 3 * sizeof(double));
-  c->scratch = malloc((n + 1) * 9 * sizeof(double));
+  c->share = (n + 1) * 9 * sizeof(double);
+  c->scratch = malloc(c->share * (size_t)omp_get_max_threads());
   c->run.sigma = kernel_sigma(sim->par.kernel, p->dimension);
   c->run.alpha = sim->par.alpha, c->run.beta = sim->par.beta, c->run.dimension = p->dimension;
   if (!c->order || !c->record || !c->pull || !c->scratch || alloc_state(&sim->s, sim->slots)) {
@@ -106,7 +108,7 @@ static int cpu_store(Sim *sim, Parts *p, Err *err)
   const State *s = &sim->s;
   if (part_add(p,
                "id x v m rho u h mat body p cs s damage nact phi pmax strain nngb a dudt dqdt divv "
-               "delta",
+               "delta signal dcrack",
                err))
     return -1;
 #define CPU_STORE(TYPE, MEMBER, WIDTH, ...)                                                        \
@@ -117,33 +119,50 @@ static int cpu_store(Sim *sim, Parts *p, Err *err)
   return 0;
 }
 
-/* One array into the new order. */
-static void reorder(const Cpu *c, void *array, size_t size, long n)
-{
-  char *to = c->scratch, *from = array;
-#pragma omp parallel for schedule(static)
-  for (long k = 0; k < n; k++)
-    memcpy(to + (size_t)k * size, from + (size_t)c->order[k] * size, size);
-#pragma omp parallel for schedule(static)
-  for (long k = 0; k < n; k++) memcpy(from + (size_t)k * size, to + (size_t)k * size, size);
-}
+/* The arrays that move with their particles, as bytes. */
+typedef struct {
+  char *array;
+  size_t size; /* bytes a particle */
+} Column;
 
-static void reorder_all(Sim *sim)
+enum { COLUMNS = 128 };
+
+static int columns_of(const Sim *sim, Column column[COLUMNS])
 {
   const State *s = &sim->s;
+  int n = 0;
+#define CPU_COLUMN(TYPE, MEMBER, WIDTH, ...)                                                       \
+  column[n].array = (char *)s->MEMBER, column[n++].size = sizeof(TYPE) * (WIDTH);
+  ALL_FIELDS(CPU_COLUMN)
+  MOVED_FIELDS(CPU_COLUMN)
+#undef CPU_COLUMN
+      for (int slot = 0; slot < sim->slots; slot++)
+  {
+#define CPU_SLOT_COLUMN(MEMBER, WIDTH)                                                             \
+  column[n].array = (char *)s->saved[slot].MEMBER, column[n++].size = sizeof(double) * (WIDTH);
+    SAVED_FIELDS(CPU_SLOT_COLUMN)
+#undef CPU_SLOT_COLUMN
+  }
+  return n;
+}
+
+/* Everything into the new order, one array per thread at a time. */
+static void reorder_all(Sim *sim)
+{
   const Cpu *c = sim->own;
-  long k = 0;
-  while (k < s->n && c->order[k] == k) k++;
-  if (k == s->n) return;
-#define CPU_MOVE(TYPE, MEMBER, WIDTH, ...) reorder(c, s->MEMBER, sizeof(TYPE) * (WIDTH), s->n);
-  ALL_FIELDS(CPU_MOVE)
-  MOVED_FIELDS(CPU_MOVE)
-#undef CPU_MOVE
-  for (int slot = 0; slot < sim->slots; slot++) {
-#define CPU_MOVE_SLOT(MEMBER, WIDTH)                                                               \
-  reorder(c, s->saved[slot].MEMBER, sizeof(double) * (WIDTH), s->n);
-    SAVED_FIELDS(CPU_MOVE_SLOT)
-#undef CPU_MOVE_SLOT
+  Column column[COLUMNS];
+  long n = sim->s.n, k = 0;
+  int columns = columns_of(sim, column);
+  while (k < n && c->order[k] == k) k++;
+  if (k == n) return;
+#pragma omp parallel for schedule(dynamic, 1)
+  for (int a = 0; a < columns; a++) {
+    char *from = column[a].array,
+         *to = (char *)c->scratch + (size_t)omp_get_thread_num() * c->share;
+    size_t size = column[a].size;
+    for (long i = 0; i < n; i++)
+      memcpy(to + (size_t)i * size, from + (size_t)c->order[i] * size, size);
+    memcpy(from, to, (size_t)n * size);
   }
 }
 

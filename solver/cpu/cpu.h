@@ -16,9 +16,10 @@ typedef struct {
   long *order;    /* [n] */
   double *record; /* [n][18] packed records of the loop at hand */
   double *pull;   /* [n][3] gravity */
-  void *scratch;  /* [n][9] doubles, for reordering */
-  double *flaw;   /* all thresholds */
-  Parts *parts;   /* what files hold besides the arrays (not owned) */
+  void *scratch;  /* [threads][share] bytes, for reordering */
+  size_t share;
+  double *flaw; /* all thresholds */
+  Parts *parts; /* what files hold besides the arrays (not owned) */
 } Cpu;
 
 void cpu_gradient(Sim *sim);
