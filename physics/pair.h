@@ -86,9 +86,9 @@ typedef struct {
   double near;   /* 1 when the pair interacts */
 } PairForce;
 
-/* pair_signal: what limits the step [m/s]: waves from both sides and approach, c_i + c_j - 3 v_ij.r_ij/r; or the viscosity, whose
- * rate on a pair is 4 (alpha c + beta |nu|)/h for a spline: 3.2 times that speed keeps twice that rate times the step below 1
- * at cfl 0.4. */
+/* pair_signal: what limits the step [m/s]: waves from both sides and approach, c_i + c_j - 3
+ * v_ij.r_ij/r; or the viscosity, whose rate on a pair is 4 (alpha c + beta |nu|)/h for a spline:
+ * 3.2 times that speed keeps twice that rate times the step below 1 at cfl 0.4. */
 HD double pair_signal(double waves, double vr, double r2, double viscous)
 {
   double both = waves - (vr < 0 ? 3 * vr / sqrt(r2) : 0);

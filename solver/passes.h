@@ -76,7 +76,8 @@ HD Sym passes_jaumann(Sym s, const double *g, double mu)
   return d;
 }
 
-/* passes_rotate: Q S Q^T with Q = exp(R dt), R the spin of the velocity gradient g: exact for rigid rotation (Rodrigues). */
+/* passes_rotate: Q S Q^T with Q = exp(R dt), R the spin of the velocity gradient g: exact for
+ * rigid rotation (Rodrigues). */
 HD Sym passes_rotate(Sym s, const double *g, double dt)
 {
   double w[3] = {0.5 * (g[7] - g[5]), 0.5 * (g[2] - g[6]), 0.5 * (g[3] - g[1])}, q[9], t[9];
@@ -103,8 +104,8 @@ HD Sym passes_strain_rate(const double *g)
   return e;
 }
 
-/* passes_elastic: S after dt: half the rotation, Hooke's law for the deviatoric strain, the other half. Second order; a pure
- * rotation is exact. */
+/* passes_elastic: S after dt: half the rotation, Hooke's law for the deviatoric strain, the
+ * other half. Second order; a pure rotation is exact. */
 HD Sym passes_elastic(Sym s, const double *g, double mu, double dt)
 {
   Sym e = passes_strain_rate(g);
@@ -227,8 +228,9 @@ HD void pass_drift(const State *s, const Step *k, long i)
   s->h[i] = passes_follow(s, k, i, h, k->dt);
 }
 
-/* passes_density: rho after dt by continuity; with a kernel sum it is there already. Never less than a lone particle's own kernel
- * makes, m W(0), times density_floor: volumes m/rho of expanding debris stay bounded. */
+/* passes_density: rho after dt by continuity; with a kernel sum it is there already. Never less
+ * than a lone particle's own kernel makes, m W(0), times density_floor: volumes m/rho of
+ * expanding debris stay bounded. */
 HD void passes_density(const State *s, const Step *k, long i)
 {
   double h = s->h[i], floor = k->density_floor * k->self * s->m[i] /

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What tests of the solver share: particles made in memory, runs without files. Every failure to set up fails the test. */
+/* What tests of the solver share: particles made in memory, runs without files. Every failure to
+ * set up fails the test. */
 #ifndef LAB_H
 #define LAB_H
 
@@ -66,7 +67,8 @@ static inline void lab_store(Sim *sim, Parts *p)
   if (sim_store(sim, p, &err)) fail_msg("%s", err.text);
 }
 
-/* lab_lattice: positions of a cubic lattice of spacing dx whose points satisfy inside(x, data); counts when x is NULL. */
+/* lab_lattice: positions of a cubic lattice of spacing dx whose points satisfy inside(x, data);
+ * counts when x is NULL. */
 static inline long lab_lattice(double dx, int half, int dimension,
                                int (*inside)(const double *x, void *data), void *data, double *x)
 {

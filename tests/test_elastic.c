@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Elastic solids: wave speeds (validation.md B9), a rotating sphere that keeps its angular momentum and loses it without the corrected
- * gradient (B10), stress carried by rotation and by simple shear (B11). */
+/* Elastic solids: wave speeds (validation.md B9), a rotating sphere that keeps its angular
+ * momentum and loses it without the corrected gradient (B10), stress carried by rotation and by
+ * simple shear (B11). */
 #include "lab.h"
 
 static const char BASALT[] =
@@ -10,8 +11,9 @@ static const char RUBBER[] =
     "name = \"r\"; eos = { form = \"murnaghan\"; rho0 = 1.; K = 1.; n = 1.; };"
     "strength = { shear_modulus = 1.; form = \"none\"; };";
 
-/* A bump of longitudinal (axis 0) or transverse (axis 1) velocity in a bar of n particles splits into two halves that run apart at
- * the wave speed: the way of the right one's centroid between two times. */
+/* A bump of longitudinal (axis 0) or transverse (axis 1) velocity in a bar of n particles splits
+ * into two halves that run apart at the wave speed: the way of the right one's centroid between
+ * two times. */
 static double bar_speed(int axis, int n, double guess)
 {
   double dx = 1. / n, at[2] = {0, 0};
@@ -53,7 +55,8 @@ static int in_sphere(const double *x, void *data)
   return x[0] * x[0] + x[1] * x[1] + x[2] * x[2] <= 1;
 }
 
-/* B10: R = rho0 = c = K = mu = 1, Omega = 2 pi/100; returns L/L0 after `turns`. jitter in units of dx. */
+/* B10: R = rho0 = c = K = mu = 1, Omega = 2 pi/100; returns L/L0 after `turns`. jitter in units
+ * of dx. */
 static double rotating(double dx, double turns, double jitter, double *radius, double *momentum)
 {
   double omega = 2 * LAB_PI / 100, far = 0;
@@ -97,7 +100,8 @@ static void sphere(void **state)
   assert_true(fabs(l - 1) < 1e-2);
 }
 
-/* B11: S of a rigidly rotating element is Q S0 Q^T; a literal 001 eq. 9 gives S_xy of the other sign. */
+/* B11: S of a rigidly rotating element is Q S0 Q^T; a literal 001 eq. 9 gives S_xy of the other
+ * sign. */
 static void objectivity(void **state)
 {
   double g[9] = {0, -1, 0, 1, 0, 0, 0, 0, 0}, dt = 2 * LAB_PI / 1000, s0 = 1e6;
@@ -114,7 +118,8 @@ static void objectivity(void **state)
   assert_true(fabs(s.xx - s0) < 1e-6 * s0 && fabs(s.xy) < 1e-6 * s0);
 }
 
-/* The rate form that rk2 uses and the step form that leapfrog uses agree for any velocity gradient and stress. */
+/* The rate form that rk2 uses and the step form that leapfrog uses agree for any velocity
+ * gradient and stress. */
 static void rate_and_step(void **state)
 {
   double g[9] = {.3, -1.2, .7, .4, -.2, .9, -.5, .1, .6}, dt = 1e-6;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Sedov's blast in 3D, gamma 5/3 (validation.md B2): R = (E t^2/(0.49358 rho))^(1/5) = 0.34747 at t = 0.05 for E = 1e0 in a unit box;
- * outer half-maximum of the binned density within 5 % at 32^3, its peak >= 1.9, isotropy, energy and momentum. */
+/* Sedov's blast in 3D, gamma 5/3 (validation.md B2): R = (E t^2/(0.49358 rho))^(1/5) = 0.34747
+ * at t = 0.05 for E = 1e0 in a unit box; outer half-maximum of the binned density within 5 % at
+ * 32^3, its peak >= 1.9, isotropy, energy and momentum. */
 #include "lab.h"
 
 static const char GAS[] =
@@ -25,7 +26,8 @@ static Parts *box(void)
   return p;
 }
 
-/* Peak of the binned density and the radius outside of it where the excess over 1 falls to half; octant < 0: all. */
+/* Peak of the binned density and the radius outside of it where the excess over 1 falls to half;
+ * octant < 0: all. */
 static double front(const Parts *p, int octant, double *peak)
 {
   double mass[BINS] = {0}, volume[BINS] = {0}, width = .5 / BINS, rho[BINS] = {0};

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Sod's shock tube in 1D against the exact Riemann solution (validation.md B1: rel. L1 of rho, v, P below 0.07, 0.16, 0.085 at
- * about 450 particles, 0.012, 0.03, 0.015 at 4500), its order of convergence, and conservation. */
+/* Sod's shock tube in 1D against the exact Riemann solution (validation.md B1: rel. L1 of rho,
+ * v, P below 0.07, 0.16, 0.085 at about 450 particles, 0.012, 0.03, 0.015 at 4500), its order of
+ * convergence, and conservation. */
 #include "lab.h"
 
 static const char GAS[] = "name = \"gas\"; eos = { form = \"ideal\"; gamma = 1.4; };";
@@ -29,7 +30,8 @@ static void exact(double xi, double *rho, double *v, double *p)
     *rho = .125, *v = 0, *p = .1;
 }
 
-/* Equal masses, the spacing 8 dx right of 0 (ratio 8), or equal spacing and masses 8 times smaller there (ratio 1). */
+/* Equal masses, the spacing 8 dx right of 0 (ratio 8), or equal spacing and masses 8 times
+ * smaller there (ratio 1). */
 static Parts *tube(double dx, int ratio)
 {
   long nl = lround(1 / dx), nr = lround(1 / (ratio * dx));
@@ -95,8 +97,9 @@ static void sum(void **state)
   assert_true(drift < 1e-4);
 }
 
-/* Continuity and number density, with an eightfold jump of the masses: the contact keeps an error of its own (p/rho^2 in the
- * forces, m/rho in the divergence), so only the coarse bounds are claimed. */
+/* Continuity and number density, with an eightfold jump of the masses: the contact keeps an
+ * error of its own (p/rho^2 in the forces, m/rho in the divergence), so only the coarse bounds
+ * are claimed. */
 static void jump_of_mass(void **state)
 {
   double e[3], drift;

@@ -136,8 +136,7 @@ static int columns_of(const Sim *sim, Column column[COLUMNS])
   ALL_FIELDS(CPU_COLUMN)
   MOVED_FIELDS(CPU_COLUMN)
 #undef CPU_COLUMN
-      for (int slot = 0; slot < sim->slots; slot++)
-  {
+  for (int slot = 0; slot < sim->slots; slot++) {
 #define CPU_SLOT_COLUMN(MEMBER, WIDTH)                                                             \
   column[n].array = (char *)s->saved[slot].MEMBER, column[n++].size = sizeof(double) * (WIDTH);
     SAVED_FIELDS(CPU_SLOT_COLUMN)

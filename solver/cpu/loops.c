@@ -73,7 +73,8 @@ static inline __attribute__((always_inline)) void gradient_of(const State *s, lo
   double gxx = 0, gxy = 0, gxz = 0, gyx = 0, gyy = 0, gyz = 0, gzx = 0, gzy = 0, gzz = 0;
   double mxx = 0, mxy = 0, mxz = 0, myy = 0, myz = 0, mzz = 0;
   PairFlow self = *me;
-#pragma omp simd reduction(+ : gxx, gxy, gxz, gyx, gyy, gyz, gzx, gzy, gzz, mxx, mxy, mxz, myy, myz, mzz)
+#pragma omp simd reduction(+ : gxx, gxy, gxz, gyx, gyy, gyz, gzx, gzy, gzz)                        \
+    reduction(+ : mxx, mxy, mxz, myy, myz, mzz)
   for (long k = 0; k < n; k++) {
     PairFlow j = {p[k],
                   p[room + k],

@@ -121,8 +121,9 @@ static Param settings(int damped, double tau)
 
 static int quiet(const Measure *m) { return m->high < 0.01 && m->balance < 1e-5; }
 
-/* Runs for up to `time`, with friction time tau (0: none); with `stop` until the body has been quiet for one free-fall time and its
- * density has stopped improving. *took: how long it ran. Progress over the whole relaxation is first..last of 1. */
+/* Runs for up to `time`, with friction time tau (0: none); with `stop` until the body has been
+ * quiet for one free-fall time and its density has stopped improving. *took: how long it ran.
+ * Progress over the whole relaxation is first..last of 1. */
 static int stage(Body *b, double tau, double time, int stop, Progress *bar, double first,
                  double last, double *took, Err *err)
 {

@@ -15,7 +15,8 @@ typedef struct {
   double radius, volume; /* largest |r| + half a spacing; radius of the volume sum m/rho [m] */
 } Measure;
 
-/* measure_body: p about its centre of mass, against the profile s. layer [p->n]: of each particle. */
+/* measure_body: p about its centre of mass, against the profile s. layer [p->n]: of each
+ * particle. */
 int measure_body(const Parts *p, const Structure *s, const int *layer, double spacing, Measure *out,
                  Err *err);
 
