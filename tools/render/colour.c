@@ -67,7 +67,11 @@ Rgb colour_map(const char *map, double t)
   return polynomial(!strcmp(map, "magma") ? magma : !strcmp(map, "inferno") ? inferno : viridis, t);
 }
 
-Rgb colour_kind(long k) { return okabe_ito[k % (long)(sizeof okabe_ito / sizeof *okabe_ito)]; }
+Rgb colour_kind(long k)
+{
+  long n = (long)(sizeof okabe_ito / sizeof *okabe_ito);
+  return colour_shade(okabe_ito[k % n], k < n ? 1 : 0.6);
+}
 
 Rgb colour_of_material(const char *name, int k)
 {

@@ -13,7 +13,8 @@
 Rgb colour_map(const char *map, double t);
 
 /* colour_of_material: by the first known word in the name (basalt red, water ice blue as in 001
- * fig. 10), else the k-th of colour_kind. colour_kind: distinct colours in turn, k >= 0 (Okabe &
+ * fig. 10), else the k-th of colour_kind. colour_kind: seven distinct colours, then
+ * the same darker, k >= 0 (Okabe &
  * Ito 2008). */
 Rgb colour_of_material(const char *name, int k);
 Rgb colour_kind(long k);

@@ -11,7 +11,7 @@
 #include "picture.h"
 #include "sample.h"
 
-enum { FINE = 2, GAP = 3, LEGEND = 8 };
+enum { FINE = 2, GAP = 3, LEGEND = 7 };
 
 Picture *picture_new(const Look *look, int panels, Err *err)
 {
