@@ -150,11 +150,10 @@ int sim_advance(Sim *sim, double until, SimStep *done, Err *err)
 
 int sim_store(Sim *sim, Parts *p, Err *err)
 {
-  double next = sim->dt > 0 && isfinite(sim->dt) ? sim->dt : 1e300;
   if (sim->b->store(sim, p, err)) return -1;
   p->time = sim->time;
   return part_set_number(p, "run", "SmoothingMin", sim->par.h_min, err) |
          part_set_number(p, "run", "SmoothingMax", sim->par.h_max, err) |
-         part_set_number(p, "run", "NextStep", next, err) |
+         part_set_number(p, "run", "NextStep", sim->dt, err) |
          part_set_number(p, "run", "Step", (double)sim->step, err);
 }
