@@ -45,7 +45,8 @@ setup() {
 @test "nothing brittle: a warning, and the body as it was" {
   mksphere -n 50 --radius 1km --layer water -o l.h5 2>log
   run weibull l.h5 -o w.h5
-  [ "$status" = 0 ] && [[ $output == "weibull: warning: no particle is of a brittle material"* ]]
+  [ "$status" = 0 ]
+  [[ $output == "weibull: warning: no particle is of a brittle material"* ]]
   [ "$(field w.h5 FlawCount | sort -u)" = 0 ]
 }
 
