@@ -182,6 +182,19 @@ static int cpu_search(Sim *sim, Err *err)
   return bad;
 }
 
+/* An isolated system does not pull itself: the mean acceleration that the tree's errors leave is taken
+ * off, so that momentum is conserved to rounding with the tree too. */
+static void centre_pull(const Cpu *c, const State *s)
+{
+  double mass = 0, sum[3] = {0, 0, 0};
+  for (long i = 0; i < s->n; i++) {
+    mass += s->m[i];
+    for (int d = 0; d < 3; d++) sum[d] += s->m[i] * c->pull[3 * i + d];
+  }
+  for (long i = 0; i < s->n; i++)
+    for (int d = 0; d < 3; d++) c->pull[3 * i + d] -= sum[d] / mass;
+}
+
 static int cpu_gravity(Sim *sim, Err *err)
 {
   Cpu *c = sim->own;
@@ -194,6 +207,7 @@ static int cpu_gravity(Sim *sim, Err *err)
     bad = gravity_tree(&c->tree, s->x, s->m, s->h, &o, c->pull, s->phi, err);
   else
     bad = gravity_direct(s->n, s->x, s->m, s->h, o.G, c->pull, s->phi, err);
+  if (!bad && sim->par.gravity == PARAM_TREE) centre_pull(c, s);
   if (!bad)
     for (long i = 0; i < 3 * s->n; i++) s->acc[i] += c->pull[i];
   backend_end(sim, TIMER_GRAVITY);
