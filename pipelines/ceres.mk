@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Two bodies of the mass of Ceres collide, one of them with a mantle of ice: after Schaefer et al. (2016), A&A 590, A19, section 5.
+#   make -f pipelines/ceres.mk                                     bodies, run, fragments, pictures, report, checks
+#   make -f pipelines/ceres.mk ANGLE='15 48' SPEED='1.2 1.7' -j2   a sweep; the bodies are shared
+#   make -f pipelines/ceres.mk post                                only the analysis, again, on the dumps that are there
+#   make -f pipelines/ceres.mk N=200000 THETA=0.5                  as in the paper
+# Killed at any point, the same command goes on. A result's path says what it is: OUT/N5000-s1/a48-v1.7/report.txt.
+
+# particles in both bodies together
+N = 5000
+# impact angle [degrees], 0 is head-on
+ANGLE = 48
+# impact speed [mutual escape speed at contact]
+SPEED = 1.7
+# distance of the centres at the start [km]
+DISTANCE = 11369
+# end of the run and time between snapshots [minutes], counted from the start, which lies 239 minutes before the contact
+END = 2000
+EVERY = 20
+# of the orientation of the lattices and of the flaws
+SEED = 1
+# mantle: ice (flaws of Benz & Asphaug 1999) or ice_lange (the paper's, which break more easily)
+ICE = ice
+# opening angle of the gravity tree, or direct sums: tree, direct
+THETA = 0.7
+GRAVITY = tree
+# further settings of the solver, KEY=VALUE (solver --parameters lists them)
+SET =
+# fragments of fewer particles are not listed; by default the mass of the paper's 20 of 200 000, and never fewer than 5
+LEAST = $(shell awk 'BEGIN { n = int(20*$(N)/200000 + 0.5); print n < 5 ? 5 : n }')
+# width of the pictures of the impact [km]
+EXTENT = 4500
+# where everything goes
+OUT = out/ceres
+
+# ------------------------------------------------------------------------------------------------------------------------------
+
+this := $(lastword $(MAKEFILE_LIST))
+here := $(dir $(this))
+bodies := $(OUT)/N$(N)-s$(SEED)
+runs := $(foreach a,$(ANGLE),$(foreach v,$(SPEED),$(bodies)/a$a-v$v))
+pictures := cut.png damage.png end-1.png $(if $(shell command -v gnuplot),conserved.png)
+analysis := dumps.tsv frames.txt before.tsv after.tsv fragments.h5 fragments.tsv clumps.tsv report.txt checked $(pictures) end-2.png
+
+all: $(foreach r,$(runs),$(addprefix $r/,$(pictures) checked))
+check: $(runs:%=%/checked)
+include $(here)common.mk
+
+# Both bodies have the mass of Ceres; their particles have the same volume: (0.7/2700 + 0.3/917) to 1/2700 m^3/kg.
+share = $(shell awk 'BEGIN { print int($1*$(N) + 0.5) }')
+$(call from,$(bodies)/target.h5,-n $(call share,0.6129) -m 9.43e20kg -l basalt:0.7 -l $(ICE):0.3 --rotate $(SEED)1)
+$(call from,$(bodies)/impactor.h5,-n $(call share,0.3871) -m 9.43e20kg -l basalt:1 --rotate $(SEED)2)
+$(bodies)/%.h5: | $(programs)
+	@mkdir -p $(@D)
+	mksphere $(vars) | relax | weibull --seed $(lastword $(vars)) -o $@
+	$(remember)
+
+# On the way to each other; angle and speed are read from the name a48-v1.7.
+name = $(subst -v, ,$(patsubst a%,%,$(notdir $(@D))))
+orbit = --angle $(firstword $(name))deg --speed $(lastword $(name))vesc $(vars)
+$(call from,$(runs:%=%/start.h5),--distance $(DISTANCE)km)
+$(runs:%=%/start.h5): $(bodies)/target.h5 $(bodies)/impactor.h5
+	@mkdir -p $(@D)
+	collide $(orbit) --dry-run $(filter %.h5,$^) > $(@D)/geometry.tsv
+	collide $(orbit) -o $@ $(filter %.h5,$^)
+	$(remember)
+
+# The run. It continues from its checkpoint when that is of the same start and the same settings, also to a later end.
+settings := $(strip --every $(EVERY)min $(patsubst %,--set %,gravity.method=$(GRAVITY) gravity.theta=$(THETA) \
+  output.checkpoint_every=60 $(SET)))
+beyond = awk '!/^\#/ { if (!n++) t = $$2; last = $$2 } END { exit !(last > t + $(END)*60 + 1) }'
+$(call from,$(runs:%=%/run/end),$(settings) --end +$(END)min)
+$(runs:%=%/run/end): %/run/end: %/start.h5
+	@made="$$(cksum < $<) $(settings)"; cd $*; \
+	if [ "$$(cat run/made 2>/dev/null)" != "$$made" ] || $(beyond) run/conserved.tsv 2>/dev/null; \
+	then rm -rf run; mkdir run; echo "$$made" > run/made; fi
+	solver --restart -o $(@D) $(vars) $<
+	@touch $@
+	$(remember)
+
+# The dumps, and how long after the contact each was written [min]; `post` takes those that are there.
+$(runs:%=%/dumps.tsv): %/dumps.tsv: $(if $(POST),,%/run/end)
+	@[ -s $*/run/snap_0000.h5 ] || { echo 'ceres.mk: no dumps in $*/run' >&2; exit 1; }
+	@awk '/^snap_/ { t[$$1] = $$(NF - 1)/60 } END { for (f in t) print f "\t" t[f] }' $*/run/run.log | sort > $@
+dump = $*/run/$$(awk '$1 { f = $$1 } END { print f }' $<)
+title = N $(N), $(subst -v, deg$(,) ,$(patsubst a%,%,$(notdir $*))) v_esc
+
+# Fragments: well before the contact, when the survivors have parted, at the end. Bound bodies at the end.
+$(call from,$(runs:%=%/fragments.tsv),--min-particles $(LEAST))
+%/before.tsv: %/dumps.tsv
+	fof $(call dump,NR == 1 || $$2 < -30) > $@
+%/after.tsv: %/dumps.tsv
+	fof $(call dump,$$2 < 95) > $@
+$(runs:%=%/fragments.tsv): %/fragments.tsv: %/dumps.tsv
+	fof $(vars) -o $*/fragments.h5 $(call dump,1) > $@
+	$(remember)
+%/clumps.tsv: %/dumps.tsv
+	clumps $(call dump,1) > $@
+
+# The impact cut open along the plane of the orbit, in at most nine frames; the survivors at the end.
+%/frames.txt: %/dumps.tsv
+	@awk '$$2 > -1.2*$(EVERY) && $$2 < 95 { f[n++] = $$1 } \
+	  END { for (i = 0; i < n; i += 1 + int((n - 1)/9)) print f[i] }' $< > $@
+	@[ -s $@ ] || tail -n 6 $< | cut -f 1 > $@
+%/cut.png: %/frames.txt
+	cd $*/run; render -t '$(title)' -e $(EXTENT)km -o ../cut.png $$(cat ../frames.txt)
+%/damage.png: %/frames.txt
+	cd $*/run; render -t '$(title)' -e $(EXTENT)km --color Damage --range 0:1 -o ../damage.png $$(cat ../frames.txt)
+%/end-1.png: %/fragments.tsv
+	cd $*; for k in $$(awk '$$1 == 1 || $$1 == 2 { print $$1 }' fragments.tsv); do \
+	  render -t '$(title)' -C fragment:$$k -e 1400km -s 640x480 -o end-$$k.png fragments.h5; done
+%/conserved.png: %/dumps.tsv
+	gnuplot -c $(here)conserved.gp $*/run/conserved.tsv $@
+
+# What came out, beside the paper's numbers, and what must hold. `checked` is there when it holds.
+report = geometry.tsv before.tsv after.tsv fragments.tsv clumps.tsv run/conserved.tsv
+%/report.txt: $(here)ceres.awk %/before.tsv %/after.tsv %/fragments.tsv %/clumps.tsv
+	@awk -v run=$* -v n=$(N) -v least=$(LEAST) -v gravity=$(GRAVITY) -f $< $(report:%=$*/%) > $@
+%/checked: %/report.txt
+	@cat $<
+	@! grep -q '^FAILED' $<
+	@touch $@
+
+post:
+	@rm -f $(foreach r,$(runs),$(addprefix $r/,$(analysis)))
+	@$(MAKE) --no-print-directory -f $(this) POST=1 all
+
+clean:
+	rm -rf $(OUT)
+
+.PHONY: all check post clean
