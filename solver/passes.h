@@ -136,15 +136,16 @@ HD void passes_eos(const State *s, long i, double u)
   s->cl[i] = m->mu > 0 ? sqrt(e.cs * e.cs + 4. / 3 * m->mu / s->rho[i]) : e.cs;
 }
 
-/* passes_yield: limits the deviatoric stress of i; what it gives up is plastic strain. */
-HD void passes_yield(const State *s, long i)
+/* passes_yield: limits the deviatoric stress of i; what it gives up is plastic strain (count: added
+ * up, at the end of a step only). */
+HD void passes_yield(const State *s, long i, int count)
 {
   const Material *m = &s->material[s->mat[i]];
   Sym d = passes_stress(&s->s[6 * i]);
   double j2 = tensor_j2(d),
          f = yield_factor(&m->yield, j2, s->p[i], s->damage[i], s->ue[i], m->melt);
   if (f >= 1) return;
-  s->strain[i] += (1 - f) * sqrt(3 * j2) / (3 * m->mu);
+  if (count) s->strain[i] += (1 - f) * sqrt(3 * j2) / (3 * m->mu);
   passes_keep_stress(&s->s[6 * i], tensor_scale(d, f));
 }
 
@@ -266,7 +267,7 @@ HD void pass_advance(const State *s, const Step *k, long i)
     work = passes_work(0.5 * (p + s->p[i]), mid, s->damage[i], s->divv[i], g, s->rhoa[i], solid);
     passes_eos(s, i, u + k->dt * (work + heat));
   }
-  if (mu > 0) passes_yield(s, i);
+  if (mu > 0) passes_yield(s, i, 1);
   if (k->damage) passes_damage(s, i, k->dt);
   passes_pack(s, i, k->strength);
 }
@@ -324,7 +325,7 @@ HD void pass_local(const State *s, const Step *k, long i)
   double mu = k->strength ? s->material[s->mat[i]].mu : 0;
   passes_density(s, k, i);
   passes_eos(s, i, s->u[i]);
-  if (mu > 0) passes_yield(s, i);
+  if (mu > 0) passes_yield(s, i, 0);
   if (k->damage) passes_damage(s, i, 0);
   passes_keep_stress(&s->ds[6 * i], passes_jaumann(passes_stress(&s->s[6 * i]), &s->g[9 * i], mu));
   passes_pack(s, i, k->strength);
@@ -354,11 +355,12 @@ HD void pass_save(const State *s, const Step *k, long i)
   to->crack[i] = k->rates ? s->dcrack[i] : cbrt(s->damage[i]);
 }
 
-/* passes_sum: q + dt (w1 k1 + w2 k2 + w3 k3) of one number. */
+/* passes_sum: q + dt (w1 k1 + w2 k2 + w3 k3) of one number; q itself when dt is 0, whatever the k. */
 #define PASSES_SUM(MEMBER, J)                                                                      \
-  (s->saved[0].MEMBER[J] +                                                                         \
-   k->dt * (k->weight[0] * s->saved[1].MEMBER[J] + k->weight[1] * s->saved[2].MEMBER[J] +          \
-            k->weight[2] * s->saved[3].MEMBER[J]))
+  (s->saved[0].MEMBER[J] + (k->dt > 0 ? k->dt * (k->weight[0] * s->saved[1].MEMBER[J] +            \
+                                                 k->weight[1] * s->saved[2].MEMBER[J] +            \
+                                                 k->weight[2] * s->saved[3].MEMBER[J])             \
+                                      : 0))
 
 /* combine: state = saved[0] + dt (weight . saved rates 1..3). */
 HD void pass_combine(const State *s, const Step *k, long i)
@@ -381,6 +383,18 @@ HD void pass_combine(const State *s, const Step *k, long i)
     grown = grown > limit ? limit : grown;
     s->damage[i] = grown > old ? grown : old;
   }
+}
+
+/* damp: the damping of an evaluation of rk2-adaptive. */
+HD void pass_damp(const State *s, const Step *k, long i) { passes_damp(s, k, i, &s->acc[3 * i]); }
+
+/* settle: the state that combine has reached: h towards the wanted neighbours, EOS, yield. */
+HD void pass_settle(const State *s, const Step *k, long i)
+{
+  double h = s->h[i] * passes_crowd(s, k, i);
+  s->h[i] = h < k->h_min ? k->h_min : h > k->h_max ? k->h_max : h;
+  passes_eos(s, i, s->u[i]);
+  if (k->strength && s->material[s->mat[i]].mu > 0) passes_yield(s, i, 1);
 }
 
 /* pass_correct: the corrected velocity gradient g = raw C, C the inverse of the moment matrix m
@@ -432,7 +446,9 @@ HD int pass_bad(const State *s, long i)
   X(KICK, kick)                                                                                    \
   X(DRIFT, drift)                                                                                  \
   X(ADVANCE, advance)                                                                              \
-  X(FINISH, finish) X(STILL, still) X(LOCAL, local) X(SAVE, save) X(COMBINE, combine)
+  X(FINISH, finish)                                                                                \
+  X(STILL, still)                                                                                  \
+  X(LOCAL, local) X(SAVE, save) X(COMBINE, combine) X(DAMP, damp) X(SETTLE, settle)
 
 enum {
 #define PASS_ENUM(CAPITAL, NAME) PASS_##CAPITAL,

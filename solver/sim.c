@@ -47,6 +47,10 @@ static int open_common(Sim *sim, const Param *par, const Parts *p, const char *d
     return -1;
   if (strcmp(device, "auto") != 0 && strcmp(device, "cpu") != 0)
     return err_set(err, "cannot use device '%s': this build has only the cpu backend", device);
+  for (long i = 0; i < p->n && par->damping > 0; i++)
+    if (p->body[i] < 0 || p->body[i] >= BODIES)
+      return err_set(err, "particle %lld is of body %d: damping knows bodies 0 to %d",
+                     (long long)p->id[i], (int)p->body[i], BODIES - 1);
   sim->par = *par;
   sim->b = &backend_cpu;
   sim->time = p->time;

@@ -89,7 +89,7 @@ static void spins(const State *s, Step *step)
     int b = s->body[i] >= 0 && s->body[i] < BODIES ? s->body[i] : 0;
     double r[3], v[3], r2 = 0;
     for (int d = 0; d < 3; d++) {
-      r[d] = s->x[3 * i + d] - step->centre[b][d], v[d] = s->v[3 * i + d] - step->velocity[b][d];
+      r[d] = s->x[3 * i + d] - step->centre[b][d], v[d] = s->vp[3 * i + d] - step->velocity[b][d];
       r2 += r[d] * r[d];
     }
     for (int d = 0; d < 3; d++) {
@@ -101,6 +101,7 @@ static void spins(const State *s, Step *step)
   for (int b = 0; b < BODIES; b++) spin_of(inertia[b], l[b], step->omega[b]);
 }
 
+/* Of the predicted velocities, which are what is damped. */
 void cpu_bodies(Sim *sim, Step *step)
 {
   const State *s = &sim->s;
@@ -112,7 +113,7 @@ void cpu_bodies(Sim *sim, Step *step)
     mass[b] += s->m[i];
     for (int d = 0; d < 3; d++)
       step->centre[b][d] += s->m[i] * s->x[3 * i + d],
-          step->velocity[b][d] += s->m[i] * s->v[3 * i + d];
+          step->velocity[b][d] += s->m[i] * s->vp[3 * i + d];
   }
   for (int b = 0; b < BODIES; b++)
     for (int d = 0; d < 3 && mass[b] > 0; d++)
@@ -121,11 +122,12 @@ void cpu_bodies(Sim *sim, Step *step)
 }
 
 /* The error of the midpoint rule against the third-order step, over what a tolerance of 1 would
- * allow: lengths by h, speeds by the signal speed, the rest by its own size (001 eq. 63). */
+ * allow: lengths by h, speeds by the signal speed (or, in cold matter, h/1000 a step), the rest by
+ * its own size (001 eq. 63). */
 static double error_of(const State *s, double dt, long i)
 {
   const Saved *a = &s->saved[1], *b = &s->saved[2], *c = &s->saved[3];
-  double scale = s->cl[i] + 1e-30, worst = 0, e;
+  double scale = fmax(s->cl[i], 1e-3 * s->h[i] / dt), worst = 0, e;
 #define CPU_ERROR(MEMBER, J, SIZE)                                                                 \
   e = fabs(dt * (b->MEMBER[J] - (a->MEMBER[J] + 4 * b->MEMBER[J] + c->MEMBER[J]) / 6)) / (SIZE);   \
   worst = e > worst ? e : worst;

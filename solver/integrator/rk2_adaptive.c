@@ -13,6 +13,10 @@ static int rates(Sim *sim, Step *k, int slot, Err *err)
   double dt = k->dt;
   k->dt = 0;
   if (integrator_rates(sim, k, err)) return -1;
+  if (k->damping > 0) {
+    sim->b->bodies(sim, k);
+    sim->b->pass(sim, PASS_DAMP, k);
+  }
   k->dt = dt, k->slot = slot, k->rates = 1;
   sim->b->pass(sim, PASS_SAVE, k);
   return 0;
@@ -35,11 +39,12 @@ static double trial(Sim *sim, double dt, Err *err)
   return sim->b->error(sim, &k) / sim->par.step_error;
 }
 
-/* The accelerations and limits that the run loop looks at, from the last evaluation. */
+/* The accelerations and limits that the run loop looks at, from the last evaluation (which is
+ * damped already). */
 static void keep(Sim *sim)
 {
   Step k = sim_step(sim, 0);
-  k.energy = PARAM_FROZEN;
+  k.energy = PARAM_FROZEN, k.damping = 0;
   sim->b->pass(sim, PASS_FINISH, &k);
 }
 
@@ -61,12 +66,12 @@ static int step(Sim *sim, double *dt, Err *err)
     *dt *= fmax(0.2, 0.9 * pow(error, -1. / 4));
     if (!(*dt > sim->par.step_min))
       return err_set(err, "the error control wants a step of %.3g s", *dt);
-    k.weight[0] = k.weight[1] = k.weight[2] = 0;
     sim->b->pass(sim, PASS_COMBINE, &k);
   }
   if (error < 0) return -1;
   factor = error > 0 ? 0.9 * pow(error, -0.3) : 2;
   sim->dt = *dt * fmin(2, fmax(1, factor));
+  sim->b->pass(sim, PASS_SETTLE, &k);
   keep(sim);
   return 0;
 }
