@@ -151,13 +151,15 @@ int output_snapshot(Output *o, Sim *sim, Parts *parts, Err *err)
 
 int output_checkpoint(Output *o, Sim *sim, Parts *parts, Err *err)
 {
-  char path[4096], before[4096];
+  char path[4096], before[4096], fresh[4096];
   name_of(o->dir, "checkpoint.h5", path, sizeof path);
   name_of(o->dir, "checkpoint_prev.h5", before, sizeof before);
-  if (sim_store(sim, parts, err)) return -1;
+  name_of(o->dir, "checkpoint_new.h5", fresh, sizeof fresh);
+  if (sim_store(sim, parts, err) || snap_write(parts, fresh, 1, err)) return -1;
   if (rename(path, before) && errno != ENOENT)
     return err_set(err, "cannot rename '%s': %s", path, strerror(errno));
-  return snap_write(parts, path, 1, err);
+  if (rename(fresh, path)) return err_set(err, "cannot rename '%s': %s", fresh, strerror(errno));
+  return 0;
 }
 
 int output_find_checkpoint(const char *dir, Parts **found, Err *err)

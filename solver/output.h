@@ -27,8 +27,8 @@ double output_due(const Output *o);
 /* output_conserved: a line of sums; done is the step just made, or NULL at the start. */
 int output_conserved(Output *o, Sim *sim, const SimStep *done, Err *err);
 
-/* output_snapshot: snap_NNNN.h5, and run.h5part anew. output_checkpoint: checkpoint.h5; the one
- * before becomes checkpoint_prev.h5. */
+/* output_snapshot: snap_NNNN.h5, and run.h5part anew. output_checkpoint: checkpoint.h5; when it is
+ * whole, the one before becomes checkpoint_prev.h5. */
 int output_snapshot(Output *o, Sim *sim, Parts *parts, Err *err);
 int output_checkpoint(Output *o, Sim *sim, Parts *parts, Err *err);
 

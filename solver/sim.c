@@ -107,18 +107,23 @@ const char *sim_limit_name(int limit)
   return limit >= 0 && limit < LIMITS + 3 ? names[limit] : "?";
 }
 
+/* The criteria of the present state, which must make sense. */
+static int limits_of(Sim *sim, Limits *l, Err *err)
+{
+  Step k = sim_step(sim, 0);
+  char look[512];
+  sim->b->limits(sim, &k, l);
+  if (l->bad < 0) return 0;
+  sim->b->look(sim, l->bad, look, sizeof look);
+  return err_set(err, "the state broke down at t = %.9g s, step %ld: %s: %s", sim->time, sim->step,
+                 bad_names[l->bad_reason], look);
+}
+
 /* The next step as the criteria have it, and who says so. */
 static int next_limits(Sim *sim, SimStep *next, Err *err)
 {
   Limits l;
-  Step k = sim_step(sim, 0);
-  char look[512];
-  sim->b->limits(sim, &k, &l);
-  if (l.bad >= 0) {
-    sim->b->look(sim, l.bad, look, sizeof look);
-    return err_set(err, "the state broke down at t = %.9g s, step %ld: %s: %s", sim->time,
-                   sim->step, bad_names[l.bad_reason], look);
-  }
+  if (limits_of(sim, &l, err)) return -1;
   next->dt = INFINITY, next->limit = LIMITS + 2, next->id = -1;
   for (int c = 0; c < LIMITS; c++)
     if (l.dt[c] < next->dt) next->dt = l.dt[c], next->limit = c, next->id = l.id[c];
@@ -154,7 +159,8 @@ int sim_advance(Sim *sim, double until, SimStep *done, Err *err)
 
 int sim_store(Sim *sim, Parts *p, Err *err)
 {
-  if (sim->b->store(sim, p, err)) return -1;
+  Limits l;
+  if (limits_of(sim, &l, err) || sim->b->store(sim, p, err)) return -1;
   p->time = sim->time;
   return part_set_number(p, "run", "SmoothingMin", sim->par.h_min, err) |
          part_set_number(p, "run", "SmoothingMax", sim->par.h_max, err) |

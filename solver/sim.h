@@ -31,7 +31,8 @@ int sim_advance(Sim *sim, double until, SimStep *done, Err *err);
 /* sim_limit_name: the word for conserved.tsv and the log. */
 const char *sim_limit_name(int limit);
 
-/* sim_store: the present state into parts, with time and the counters that sim_restart needs. */
+/* sim_store: the present state into parts, with time and the counters that sim_restart needs. A
+ * state that makes no sense is an error as in sim_advance, so that no file ever holds one. */
 int sim_store(Sim *sim, Parts *parts, Err *err);
 
 /* sim_step: the numbers of a step of length dt. */
