@@ -182,8 +182,8 @@ static int cpu_search(Sim *sim, Err *err)
   return bad;
 }
 
-/* An isolated system does not pull itself: the mean acceleration that the tree's errors leave is taken
- * off, so that momentum is conserved to rounding with the tree too. */
+/* An isolated system does not pull itself: the mean acceleration that the tree's errors leave is
+ * taken off, so that momentum is conserved to rounding with the tree too. */
 static void centre_pull(const Cpu *c, const State *s)
 {
   double mass = 0, sum[3] = {0, 0, 0};
