@@ -45,7 +45,7 @@ static const CfgRow strength[] = {
 static const CfgRow gravity[] = {
   {"method", CFG_CHOICE, AT(gravity), "none|tree|direct", "tree", ANY, "self-gravity: Barnes-Hut with quadrupoles, or direct sum"},
   {"theta", CFG_REAL, AT(theta), "1", "0.7", 0, 1.5, "opening angle: node edge over smallest distance"},
-  {"G", CFG_REAL, AT(G), "1", "6.67430e-11", 0, 1e30, "constant of gravity in m^3/kg/s^2 (CODATA 2018); 1 in code units"},
+  {"G", CFG_REAL, AT(G), "m^3/kg/s^2", "6.67430e-11", 0, 1e30, "constant of gravity (CODATA 2018); 1 in code units"},
 };
 static const CfgRow viscosity[] = {
   {"alpha", CFG_REAL, AT(alpha), "1", "0.5", 0, 100,
@@ -171,6 +171,16 @@ int param_record(const Param *p, Parts *parts, Err *err)
   return 0;
 }
 
+/* Text of a table's cell, with something else for each bar. */
+static void cell(const char *text, const char *bar, FILE *to)
+{
+  for (; *text; text++)
+    if (*text == '|')
+      fputs(bar, to);
+    else
+      fputc(*text, to);
+}
+
 void param_markdown(FILE *to)
 {
   fprintf(to, "| key | default | unit or choice | meaning |\n|---|---|---|---|\n");
@@ -179,14 +189,9 @@ void param_markdown(FILE *to)
       const CfgRow *row = &groups[g].rows[r];
       fprintf(to, "| `%s%s%s` | `%s` | ", groups[g].name, *groups[g].name ? "." : "", row->name,
               row->value);
-      for (const char *c = row->unit               ? row->unit
-                           : row->type == CFG_BOOL ? "true, false"
-                                                   : "1";
-           *c; c++)
-        if (*c == '|')
-          fputs(", ", to);
-        else
-          fputc(*c, to);
-      fprintf(to, " | %s |\n", row->meaning);
+      cell(row->unit ? row->unit : row->type == CFG_BOOL ? "true|false" : "1", ", ", to);
+      fputs(" | ", to);
+      cell(row->meaning, "\\|", to);
+      fputs(" |\n", to);
     }
 }
