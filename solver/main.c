@@ -66,6 +66,22 @@ static Param settings(void)
   return par;
 }
 
+/* The command as /History has it: without --restart, so that a run that was killed before its first
+ * checkpoint and begun anew makes the bytes of one that was not. */
+static char *command_of(int argc, char **argv)
+{
+  const char **kept = calloc((size_t)argc + 1, sizeof *kept);
+  char *line = NULL;
+  int n = 0;
+  for (int k = 0; k < argc && kept; k++)
+    if (k == 0 || (strcmp(argv[k], "-r") != 0 && strncmp(argv[k], "--re", 4) != 0))
+      kept[n++] = argv[k];
+  if (kept) line = opt_command_line(n, (char **)kept);
+  free(kept);
+  if (!line) err_die("not enough memory");
+  return line;
+}
+
 int main(int argc, char **argv)
 {
   int n, rc;
@@ -80,7 +96,7 @@ int main(int argc, char **argv)
     return 0;
   }
   if (!(parts = snap_read(n ? inputs[0] : "-", &err))) err_die("%s", err.text);
-  o.dir = dir, o.device = device, o.command = opt_command_line(argc, argv);
+  o.dir = dir, o.device = device, o.command = command_of(argc, argv);
   o.end = end_time(parts->time);
   o.every = isnan(every) ? (o.end - parts->time) / 50 : every;
   if (!(o.every > 0)) err_usage("--every must be positive");

@@ -41,13 +41,15 @@ static int fresh(Run *r, const Param *par, Err *err)
 {
   if (part_history(r->parts, r->o->command, err) || param_record(par, r->parts, err)) return -1;
   if (part_set_number(r->parts, "run", "StartTime", r->parts->time, err)) return -1;
-  if (output_open(&r->out, r->o->dir, r->parts->time, r->o->every, r->o->end, err)) return -1;
   if (sim_open(&r->sim, par, r->parts, r->o->device, err)) return -1;
+  if (mkdir(r->o->dir, 0777) && errno != EEXIST)
+    return err_set(err, "cannot make '%s': %s", r->o->dir, strerror(errno));
+  if (output_open(&r->out, r->o->dir, r->parts->time, r->o->every, r->o->end, err)) return -1;
   output_log(&r->out, "%s %ld particles, %dD, %d material(s), %s on %s", r->o->command, r->parts->n,
              r->parts->dimension, r->parts->materials, integrator_of(par->integrator)->about,
              r->sim.b->name);
-  return output_conserved(&r->out, &r->sim, NULL, err) ||
-         output_snapshot(&r->out, &r->sim, r->parts, err);
+  if (output_conserved(&r->out, &r->sim, NULL, err)) return -1;
+  return output_snapshot(&r->out, &r->sim, r->parts, err);
 }
 
 /* A checkpoint must come from the same input and the same settings (what is written may differ). */
@@ -132,20 +134,18 @@ int run_system(const RunOptions *o, const Param *par, Parts *parts, Err *err)
 {
   Run r;
   Parts *checkpoint = NULL;
-  int rc;
+  int rc, running = 0;
   memset(&r, 0, sizeof r);
   r.o = o, r.parts = parts, r.began = r.saved = progress_clock();
-  if (mkdir(o->dir, 0777) && errno != EEXIST)
-    return err_set(err, "cannot make '%s': %s", o->dir, strerror(errno));
   if (o->restart && output_find_checkpoint(o->dir, &checkpoint, err)) return -1;
   if (!checkpoint && !o->restart && output_in_use(o->dir))
     return err_set(err, "'%s' holds a run already: --restart continues it", o->dir);
   catch_signals();
   rc = checkpoint ? resume(&r, par, checkpoint, err) : fresh(&r, par, err);
   r.first_step = r.sim.step;
-  if (rc == 0) rc = loop(&r, err);
+  if (rc == 0) rc = loop(&r, err), running = 1;
   if (rc < 0) output_log(&r.out, "failed: %s", err->text);
-  if (rc < 0 && output_has_checkpoint(o->dir)) {
+  if (rc < 0 && running && output_has_checkpoint(o->dir)) {
     size_t used = strlen(err->text);
     snprintf(err->text + used, sizeof err->text - used,
              "; the last good checkpoint is '%s/checkpoint.h5'", o->dir);
