@@ -1,0 +1,169 @@
+#!/usr/bin/env bats
+# SPDX-License-Identifier: GPL-3.0-or-later
+# solver from outside: runs that are killed, stopped, continued; inputs, settings and disks that are bad.
+
+load h5
+
+setup_file() {
+  export OMP_NUM_THREADS=1
+  cd "$BATS_FILE_TMPDIR"
+  mksphere -n 300 --radius 100km --layer basalt --rotate 1 2>log | weibull 2>log >t.h5
+  mksphere -n 100 --radius 60km --layer ice --rotate 2 2>log | weibull 2>log >i.h5
+  collide t.h5 i.h5 --angle 45deg --speed 3vesc --distance 1.1 >s.h5 2>log
+  cat >run.cfg <<<'output = { log_every = 1; checkpoint_every = 0.03; };'
+  mkdir whole
+  (cd whole && time solver -c ../run.cfg -o run --end +3000s --every 300s ../s.h5) 2>&1 | awk '/real/ {split($2, t, "[ms]"); print t[1] * 60 + t[2]}' >seconds
+}
+
+setup() { cd "$BATS_TEST_TMPDIR" && ln -s "$BATS_FILE_TMPDIR"/{s,t}.h5 "$BATS_FILE_TMPDIR"/run.cfg . && mkdir here && cd here; }
+
+# go [OPTIONS]: the run of setup_file, here; begin: the same to be put in the background, and killed.
+begin() { exec solver -c ../run.cfg -o run --end +3000s --every 300s "$@" ../s.h5; }
+go() { solver -c ../run.cfg -o run --end +3000s --every 300s "$@" ../s.h5; }
+
+# like_whole: all files but the log are there, have the bytes of the undisturbed run, and nothing else is left.
+like_whole() {
+  local whole=$BATS_FILE_TMPDIR/whole/run
+  [ "$(ls -A run | grep -v checkpoint_prev)" = "$(ls -A "$whole" | grep -v checkpoint_prev)" ] || { ls -A run; return 1; }
+  for f in "$whole"/*; do
+    case $f in */run.log | */checkpoint_prev.h5) continue ;; esac
+    cmp "$f" "run/${f##*/}" || return 1
+  done
+}
+
+@test "the files of a run" {
+  cd "$BATS_FILE_TMPDIR/whole/run"
+  [ "$(ls snap_*.h5 | wc -l)" = 11 ]
+  [ "$(head -c 6 conserved.tsv)" = '# step' ]
+  awk -F'\t' 'NR > 1 && (NF != 21 || $1 != NR - 2) {exit 1}' conserved.tsv # every step once
+  true_that 'near(b - a, 3000, 1e-12)' a="$(number snap_0000.h5 /Header/Time)" b="$(number snap_0010.h5 /Header/Time)"
+  h5dump -a /Step#10/TimeValue run.h5part | grep -q '(0)'
+  h5dump -d /Parameters/Value snap_0003.h5 >/dev/null || h5ls snap_0003.h5/Parameters >/dev/null
+  grep -q '^done at step' run.log
+  grep -q 'damage\|cfl' conserved.tsv
+}
+
+@test "killed ten times at random moments: the bytes of the undisturbed run" {
+  killed=0
+  for ((try = 0; killed < 10 && try < 12; try++)); do
+    begin $( ((try)) && echo --restart) &
+    pid=$!
+    sleep "$(awk -v r=$RANDOM '{print 0.01 + $1 / 6 * r / 32768}' "$BATS_FILE_TMPDIR/seconds")"
+    if kill -9 $pid 2>/dev/null; then killed=$((killed + 1)); fi
+    wait $pid || true
+  done
+  echo "killed $killed times, last at $(tail -1 run/conserved.tsv | cut -f 1,2)"
+  [ $killed = 10 ]
+  go --restart
+  like_whole
+}
+
+@test "SIGTERM: a checkpoint, exit 3, and on, even when that checkpoint is broken" {
+  begin &
+  pid=$!
+  while [ ! -s run/snap_0002.h5 ]; do sleep .02; done
+  kill -TERM $pid
+  rc=0
+  wait $pid || rc=$?
+  [ $rc = 3 ] && [ -s run/checkpoint.h5 ] && [ ! -e run/snap_0010.h5 ]
+  grep -q 'stopped at step .*: signal' run/run.log
+  [ -s run/checkpoint_prev.h5 ]
+  head -c 20000 run/checkpoint.h5 >cut && mv cut run/checkpoint.h5
+  go --restart 2>messages
+  [ "$(cat messages)" = "solver: warning: cannot read 'run/checkpoint.h5': truncated file" ]
+  like_whole
+}
+
+@test "no checkpoint that can be read" {
+  mkdir run && echo nonsense >run/checkpoint.h5
+  run go --restart
+  [ "$status" = 1 ] && [ "${lines[1]}" = "solver: cannot read 'run/checkpoint.h5': not an HDF5 file" ]
+  [ "$(ls -A run)" = checkpoint.h5 ]
+}
+
+@test "--max-wall: exit 3; rk2-adaptive continues exactly too" {
+  rc=0
+  solver -o a --end +200s -s integrator=rk2-adaptive -s step.error=1e-2 ../s.h5
+  solver -o b --end +200s -s integrator=rk2-adaptive -s step.error=1e-2 --max-wall 0.1 ../s.h5 || rc=$?
+  [ $rc = 3 ]
+  solver -o b --end +200s -s integrator=rk2-adaptive -s step.error=1e-2 --restart ../s.h5
+  cmp a/conserved.tsv b/conserved.tsv
+  [ "$(field a/snap_0050.h5 Coordinates 3)" = "$(field b/snap_0050.h5 Coordinates 3)" ]
+}
+
+@test "a run in the folder, a checkpoint of another run" {
+  cp -r "$BATS_FILE_TMPDIR/whole/run" .
+  bad 1 "'run' holds a run already: --restart continues it" solver -o run --end 1s ../s.h5
+  bad 1 "made with another 'gravity.theta'" solver -c ../run.cfg -o run --end +3000s -r -s gravity.theta=0.5 ../s.h5
+  bad 1 "the input 305: it belongs to another run" solver -c ../run.cfg -o run --end +3000s -r ../t.h5
+  like_whole
+}
+
+@test "a time step that collapses: id, state, last good checkpoint" {
+  bad 1 "time step collapsed to" solver -o run --end +3000s -s step.min=1.8 -s output.checkpoint_every=0 ../s.h5
+  [[ $output == *": particle "*" of body "*"rho "*"neighbours; the last good checkpoint is 'run/checkpoint.h5'" ]]
+  grep -q '^failed: the time step collapsed' run/run.log
+  [ "$(number run/checkpoint.h5 /Header/Time)" != "$(number run/snap_0000.h5 /Header/Time)" ]
+}
+
+# without DATASET FROM TO: a copy that lacks a particle field.
+without() {
+  for name in $(h5ls "$2/PartType0" | awk '{print $1}'); do
+    [ "$name" = "$1" ] || h5copy -p -i "$2" -o "$3" -s "/PartType0/$name" -d "/PartType0/$name"
+  done
+  for group in Header Units Materials; do h5copy -i "$2" -o "$3" -s "/$group" -d "/$group"; done
+}
+
+# refused MESSAGE COMMAND: the shell's command ends with 1 and one line on stderr.
+refused() {
+  run bash -c "$2 2>&1 >/dev/null"
+  [ "$status" = 1 ] && [ "${#lines[@]}" = 1 ] && [[ $output == "solver: "*"$1"* ]] || { echo "$output"; return 1; }
+}
+
+@test "bad inputs: one line, and no folder" {
+  head -c 50000 ../s.h5 >cut.h5
+  echo 'not HDF5' >text.h5
+  : >empty
+  without SmoothingLength ../s.h5 lacks.h5
+  without Masses ../s.h5 negative.h5
+  field ../s.h5 Masses | sed '7s/^/-/' >masses.txt
+  printf 'PATH PartType0/Masses\nINPUT-CLASS TEXTFP\nRANK 1\nDIMENSION-SIZES %d\nOUTPUT-CLASS FP\nOUTPUT-SIZE 64\n' \
+    "$(wc -l <masses.txt)" >masses.cfg
+  h5import masses.txt -c masses.cfg -o masses.h5
+  h5copy -i masses.h5 -o negative.h5 -s /PartType0/Masses -d /PartType0/Masses
+  bad 1 "'cut.h5': truncated" solver -o run --end +1s cut.h5
+  bad 1 "'text.h5': not an HDF5 file" solver -o run --end +1s text.h5
+  bad 1 "'nowhere.h5': No such file" solver -o run --end +1s nowhere.h5
+  refused "'stdin': empty" 'solver -o run --end +1s <empty'
+  bad 1 "field 'SmoothingLength' (made by mksphere)" solver -o run --end +1s lacks.h5
+  bad 1 "particle 6: Masses is -3.70811e+16, must be positive" solver -o run --end +1s negative.h5
+  [ ! -e run ]
+}
+
+@test "bad settings: one line, and no folder" {
+  echo 'gravity = { thetta = 1; };' >typo.cfg
+  bad 1 "typo.cfg:1: unknown key 'thetta' (did you mean 'theta'?)" solver -c typo.cfg -o run --end +1s ../s.h5
+  bad 1 "nowhere.cfg" solver -c nowhere.cfg -o run --end +1s ../s.h5
+  bad 2 "unknown key 'thet' (did you mean 'theta'?)" solver -o run --end +1s -s gravity.thet=1 ../s.h5
+  bad 2 "unknown group 'gravty' (did you mean 'gravity'?)" solver -o run --end +1s -s gravty.theta=1 ../s.h5
+  bad 2 "outside" solver -o run --end +1s -s gravity.theta=-1 ../s.h5
+  bad 2 "none of cubic_spline" solver -o run --end +1s -s kernel=gauss ../s.h5
+  bad 2 "not of the form key=value" solver -o run --end +1s -s kernel ../s.h5
+  bad 2 "unknown unit 'furlong'" solver -o run --end 3furlong ../s.h5
+  bad 2 "--end -100s is not after the input's time" solver -o run --end=-100s ../s.h5
+  bad 2 "--end is needed" solver -o run ../s.h5
+  bad 2 "--every" solver -o run --end +1s --every=-1s ../s.h5
+  bad 1 "cannot make 'no/where'" solver -o no/where --end +1s ../s.h5
+  [ ! -e run ]
+}
+
+@test "a full disk: one line, no half-written file, and the run goes on when there is room" {
+  trap '' XFSZ
+  # the first snapshot does not fit; the first does, a checkpoint does not
+  refused "cannot write 'run/snap_0000.h5'" 'ulimit -f 60; solver -c ../run.cfg -o run --end +3000s --every 300s ../s.h5'
+  [ "$(ls -A run)" = $'conserved.tsv\nrun.log' ]
+  refused "File too large" 'ulimit -f 140; solver -c ../run.cfg -o run --end +3000s --every 300s --restart ../s.h5'
+  [ -z "$(ls -A run | grep '~')" ]
+  go --restart
+  like_whole
+}
