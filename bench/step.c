@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Whole steps of the solver on the CPU: bench/step [N] [hydro]. Two touching spheres of N
+ * particles together (basalt: Tillotson, strength, flaws; hydro: no strength), self-gravity at
+ * theta 0.7, 57 neighbours. Checks one evaluation on samples against all pairs and direct sums,
+ * then times 20 steps after 5 and prints the table of passes. */
+#include <math.h>
+#include <omp.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include "lib/gravity.h"
+#include "lib/lattice.h"
+#include "lib/material.h"
+#include "lib/weibull.h"
+#include "solver/profile.h"
+
+enum { SAMPLES = 100, FIRST = 5, STEPS = 20 };
+
+static Err err;
+
+static void need(int failed)
+{
+  if (failed) err_die("%s", err.text);
+}
+
+static double core_time(void)
+{
+  struct timespec t;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* Spheres of 200 km that touch, closing at 100 m/s. */
+static Parts *spheres(long n)
+{
+  const double pi = acos(-1), radius = 2e5;
+  LatticeBall ball;
+  MaterialName name;
+  Material *material;
+  WeibullGroup *group;
+  int groups;
+  char *text = material_find("basalt", name, &err);
+  need(!text || lattice_ball(&ball, LATTICE_HCP, 3, n / 2, &err));
+  double a = radius * cbrt(4 * pi / (3 * (double)ball.n * ball.volume)),
+         v = ball.volume * a * a * a;
+  Parts *p = part_new(2 * ball.n);
+  if (!p) err_die("no memory");
+  need(part_add(p, "id x v m rho u h mat body", &err) || part_add_material(p, name, text, &err));
+  for (long i = 0; i < p->n; i++) {
+    long k = i % ball.n, body = i / ball.n;
+    for (int d = 0; d < 3; d++) p->x[3 * i + d] = a * ball.x[3 * k + d];
+    p->x[3 * i] += (body ? 1 : -1) * radius, p->v[3 * i] = body ? -50 : 50;
+    p->id[i] = i, p->body[i] = (int32_t)body, p->m[i] = 2700 * v, p->rho[i] = 2700;
+    p->u[i] = 1e3, p->h[i] = cbrt(57 * 3 / (4 * pi) * v);
+  }
+  if (!(material = material_load(p, &err))) err_die("%s", err.text);
+  need(weibull_assign(p, material, 1, NAN, NAN, &group, &groups, &err));
+  free(material), free(group), free(text);
+  lattice_free(&ball);
+  return p;
+}
+
+static PairBody body_of(const State *s, long i)
+{
+  const double *x = &s->x[3 * i], *v = &s->vp[3 * i], *t = &s->t[6 * i];
+  PairBody b = {x[0],      x[1],     x[2],     v[0], v[1], v[2], s->h[i], s->m[i], 1 / s->m[i],
+                s->rho[i], s->cs[i], s->cl[i], t[0], t[1], t[2], t[3],    t[4],    t[5]};
+  return b;
+}
+
+/* Acceleration and heating of sampled particles by all pairs; gravity with an error as
+ * tests/test_gravity allows. */
+static void check(const Sim *sim)
+{
+  const State *s = &sim->s;
+  PairRun run = {kernel_sigma(sim->par.kernel, 3), sim->par.alpha, sim->par.beta, 3};
+  double worst = 0, mean = 0;
+  for (long i = 0; i < 3 * s->n; i++) mean += fabs(s->acc[i]) / (double)s->n;
+  for (long k = 0; k < SAMPLES; k++) {
+    const long i = k * (s->n / SAMPLES);
+    double a[3] = {0}, du = 0, work = 0;
+    PairBody me = body_of(s, i);
+    for (long j = 0; j < s->n; j++) {
+      if (j == i) continue;
+      PairBody other = body_of(s, j);
+      PairForce f = pair_force(&me, &other, sim->par.kernel, 0, sim->solid, 0, &run);
+      const double x = me.x - other.x, y = me.y - other.y, z = me.z - other.z;
+      const double r = sqrt(x * x + y * y + z * z), h = .5 * (me.h + other.h);
+      const double g =
+          sim->par.G * other.m / pow(fmax(r, h), 3) * gravity_soft_force(fmin(r / h, 1));
+      a[0] += f.ax - g * x, a[1] += f.ay - g * y, a[2] += f.az - g * z;
+      du += f.du, work += fabs(f.du);
+    }
+    if (fabs(s->du[i] - du) > 1e-12 * work) err_die("wrong heating of %ld", i);
+    for (int d = 0; d < 3; d++) worst = fmax(worst, fabs(s->acc[3 * i + d] - a[d]) / mean);
+  }
+  printf("# %d particles against all pairs: acceleration off by %.1e of the mean\n", SAMPLES,
+         worst);
+  if (!(worst < 1e-2)) err_die("the accelerations are not what they should be");
+}
+
+static void advance(Sim *sim, int steps)
+{
+  SimStep done;
+  for (int k = 0; k < steps; k++) need(sim_advance(sim, 1e30, &done, &err));
+}
+
+int main(int argc, char **argv)
+{
+  err_program(argv[0]);
+  const int hydro = argc > 2 && strcmp(argv[2], "hydro") == 0;
+  Parts *p = spheres(argc > 1 ? atol(argv[1]) : 50000);
+  Param par;
+  Sim sim;
+  param_defaults(&par);
+  if (hydro) need(param_set(&par, "strength.on=false", &err));
+  need(sim_open(&sim, &par, p, "cpu", &err));
+  check(&sim);
+  advance(&sim, FIRST);
+  memset(sim.timer, 0, sizeof sim.timer);
+  const double core = core_time();
+  advance(&sim, STEPS);
+  printf(
+      "# %s and gravity, %ld particles, %.1f flaws each: core microseconds per particle and step\n",
+      hydro ? "hydro" : "solid", p->n, (double)p->flaws / (double)p->n);
+  printf("step\t%.3f\n", 1e6 * (core_time() - core) / (double)p->n / STEPS);
+  profile_print(&sim, STEPS, stdout);
+  sim_close(&sim);
+  part_free(p);
+  return 0;
+}
