@@ -54,7 +54,7 @@ static void sphere(Case *c, long n)
   }
   c->n = k, c->x = column(3 * k), c->y = column(3 * k), c->m = column(k), c->h = column(k);
   c->a = column(3 * k), c->phi = column(k), order = malloc((size_t)k * sizeof *order);
-  need(!order || tree_order(k, raw, NULL, order, &err));
+  need(!order || tree_order(k, raw, NULL, 0, order, &err));
   for (long i = 0; i < k; i++) {
     for (int e = 0; e < 3; e++) {
       c->x[3 * i + e] = raw[3 * order[i] + e];
@@ -68,7 +68,7 @@ static void sphere(Case *c, long n)
 static void order(Case *c)
 {
   long *o = malloc((size_t)c->n * sizeof *o);
-  need(!o || tree_order(c->n, c->y, NULL, o, &err));
+  need(!o || tree_order(c->n, c->y, NULL, 0, o, &err));
   free(o);
 }
 static void build(Case *c) { need(tree_build(&c->tree, c->n, c->x, c->m, c->h, &err)); }

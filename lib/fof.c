@@ -63,7 +63,7 @@ static int set_fill(Set *s, const Parts *p, const unsigned char *keep, Err *err)
     memcpy(s->x + 3 * s->n, p->x + 3 * i, 3 * sizeof *s->x);
     id[s->n] = p->id[i], row[s->n++] = i;
   }
-  if (!failed && s->n) failed = tree_order(s->n, s->x, id, order, err);
+  if (!failed && s->n) failed = tree_order(s->n, s->x, id, 0, order, err);
   for (long k = 0; k < s->n && !failed; k++) order[k] = row[order[k]];
   for (long k = 0; k < s->n && !failed; k++) {
     row[k] = order[k], s->h[k] = p->h[row[k]];

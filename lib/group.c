@@ -303,7 +303,7 @@ int group_potential(const Parts *p, const long *list, const unsigned char *in, l
     id[k] = p->id[list[k]];
     memcpy(x + 3 * k, p->x + 3 * list[k], 3 * sizeof *x);
   }
-  if (!failed) failed = tree_order(n, x, id, order, err);
+  if (!failed) failed = tree_order(n, x, id, 0, order, err);
   if (!failed) gather(p, list, in, order, n, y);
   if (!failed && n <= DIRECT) failed = gravity_direct(n, x, m, h, UNIT_G, a, f, err);
   if (!failed && n > DIRECT)

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include "rng.h"
 #include "tree.h"
 
 enum { BLOCK = 256 };
@@ -62,9 +63,9 @@ static void hilbert_keys(const Cube *cube, long n, const double *x, uint64_t *ke
   }
 }
 
-/* The smallest cube from the lowest corner on that holds all; -1 - k when the k-th coordinate is
- * bad. */
-static long find_cube(long n, const double *x, Cube *cube)
+/* The smallest cube from the lowest corner on that holds all, or one half as long again whose corner
+ * is drawn by shift; -1 - k when the k-th coordinate is bad. */
+static long find_cube(long n, const double *x, uint64_t shift, Cube *cube)
 {
   double x0 = FAR, y0 = FAR, z0 = FAR, x1 = -FAR, y1 = -FAR, z1 = -FAR;
   long bad = 3 * n;
@@ -79,6 +80,9 @@ static long find_cube(long n, const double *x, Cube *cube)
   }
   *cube = (Cube){{x0, y0, z0}, fmax(fmax(x1 - x0, y1 - y0), z1 - z0)};
   if (cube->edge < 1e-290) cube->edge = 1; /* coincident as far as arithmetic goes */
+  for (int d = 0; d < 3 && shift; d++)
+    cube->lo[d] -= 0.5 * cube->edge * rng_uniform(shift, 0, (uint32_t)d);
+  if (shift) cube->edge *= 1.5;
   return bad < 3 * n ? -1 - bad : 0;
 }
 
@@ -89,10 +93,10 @@ static int compare(const void *a, const void *b)
   return (s->id > t->id) - (s->id < t->id);
 }
 
-int tree_order(long n, const double *x, const int64_t *id, long *order, Err *err)
+int tree_order(long n, const double *x, const int64_t *id, uint64_t shift, long *order, Err *err)
 {
   Cube cube;
-  long bad = find_cube(n, x, &cube);
+  long bad = find_cube(n, x, shift, &cube);
   if (bad) {
     bad = -1 - bad;
     return err_set(err, "particle %lld: coordinate %g is out of range",
@@ -324,7 +328,7 @@ int tree_build(Tree *t, long n, const double *x, const double *m, const double *
 {
   Cube cube;
   if (n < 1 || n > INT32_MAX / 2) return err_set(err, "cannot build a tree of %ld particles", n);
-  long bad = find_cube(n, x, &cube);
+  long bad = find_cube(n, x, t->shift, &cube);
   if (bad)
     return err_set(err, "particle number %ld: coordinate %g is out of range", (-1 - bad) / 3,
                    x[-1 - bad]);

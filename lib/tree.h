@@ -49,6 +49,7 @@ typedef struct {
   TreeGroup *group;
   int32_t groups;
   double origin[3], edge; /* the root cube [m]; edge 1 when all particles coincide */
+  uint64_t shift;         /* as given to tree_order; set it before tree_build */
   /* private to tree.c: allocated lengths, and the keys */
   int32_t node_room, walk_room, group_room;
   uint64_t *key;
@@ -56,9 +57,10 @@ typedef struct {
 } Tree;
 
 /* tree_order: the Hilbert order of particles at x [n][3]: order[k] is the particle that comes k-th;
- * equal keys by id (NULL: by index). Returns 0, or -1: no memory, or a coordinate that is not
+ * equal keys by id (NULL: by index). shift: 0, or a number that draws where the root cube lies: the
+ * errors of gravity then differ from tree to tree and do not add up over a run. Returns 0, or -1: no memory, or a coordinate that is not
  * finite (or beyond 1e150); the message names the particle's id. */
-int tree_order(long n, const double *x, const int64_t *id, long *order, Err *err);
+int tree_order(long n, const double *x, const int64_t *id, uint64_t shift, long *order, Err *err);
 
 /* tree_build: nodes and groups of particles that ARE in Hilbert order (see tree_order) at x [n][3],
  * n > 0, with masses m (NULL: none, for searches only) and supports h (NULL: zeros). Reuses the

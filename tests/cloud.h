@@ -85,7 +85,7 @@ static inline Cloud cloud_new(CloudShape shape, long n, int seed, double spread)
              calloc(z, 8)};
   Err err;
   for (long i = 0; i < n; i++) cloud_place(shape, seed, n, i, raw + 3 * i), id[i] = 7 * i + 3;
-  if (tree_order(n, raw, id, order, &err)) abort();
+  if (tree_order(n, raw, id, 0, order, &err)) abort();
   for (long k = 0; k < n; k++) {
     const long i = order[k];
     c.id[k] = id[i];

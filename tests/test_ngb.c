@@ -114,7 +114,7 @@ static void lattice_shells(void **state)
   static long order[N];
   for (int i = 0; i < N; i++)
     raw[3 * i] = i % W, raw[3 * i + 1] = i / W % W, raw[3 * i + 2] = i / W / W, h[i] = 2;
-  assert_int_equal(tree_order(N, raw, NULL, order, &err), 0);
+  assert_int_equal(tree_order(N, raw, NULL, 0, order, &err), 0);
   for (int k = 0; k < N; k++) memcpy(x + 3 * k, raw + 3 * order[k], 24);
   Tree t = {0};
   Ngb g = {0};
@@ -260,7 +260,7 @@ static void smoothing_of_a_lattice(void **state)
   static long order[N];
   for (int i = 0; i < N; i++)
     raw[3 * i] = i % W, raw[3 * i + 1] = i / W % W, raw[3 * i + 2] = i / W / W;
-  assert_int_equal(tree_order(N, raw, NULL, order, &err), 0);
+  assert_int_equal(tree_order(N, raw, NULL, 0, order, &err), 0);
   for (int k = 0; k < N; k++) memcpy(x + 3 * k, raw + 3 * order[k], 24);
   Tree t = {0};
   assert_int_equal(tree_build(&t, N, x, NULL, NULL, &err), 0);

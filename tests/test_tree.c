@@ -24,7 +24,7 @@ static void order_is_hilbert(void **state)
   for (long i = 0; i < N; i++)
     x[3 * i] = (double)(i % W), x[3 * i + 1] = (double)(i / W % W),
           x[3 * i + 2] = (double)(i / W / W);
-  assert_int_equal(tree_order(N, x, NULL, order, &err), 0);
+  assert_int_equal(tree_order(N, x, NULL, 0, order, &err), 0);
   for (long k = 1; k < N; k++) {
     const double *a = x + 3 * order[k - 1], *b = x + 3 * order[k];
     assert_true(fabs(a[0] - b[0]) + fabs(a[1] - b[1]) + fabs(a[2] - b[2]) == 1);
@@ -45,7 +45,7 @@ static void order_ignores_input(void **state)
         memcpy(c.y + 3 * i, c.x + 3 * (*n - 1 - i), 24);
         id[i] = c.id[*n - 1 - i];
       }
-      assert_int_equal(tree_order(*n, c.y, id, order, &err), 0);
+      assert_int_equal(tree_order(*n, c.y, id, 0, order, &err), 0);
       for (long k = 0; k < *n; k++) assert_true(id[order[k]] == c.id[k]);
       if (shape == COINCIDENT)
         for (long k = 1; k < *n; k++)
@@ -200,7 +200,7 @@ static void bad_input_is_refused(void **state)
     char name[64];
     snprintf(name, sizeof name, "particle %lld:", (long long)c.id[41]);
     c.x[3 * 41 + 1] = bad[k];
-    assert_int_equal(tree_order(c.n, c.x, c.id, order, &err), -1);
+    assert_int_equal(tree_order(c.n, c.x, c.id, 0, order, &err), -1);
     assert_non_null(strstr(err.text, name));
     assert_int_equal(tree_build(&t, c.n, c.x, c.m, c.h, &err), -1);
     assert_non_null(strstr(err.text, "particle number 41"));
