@@ -22,7 +22,7 @@ SEED = 1
 # mantle: ice (flaws of Benz & Asphaug 1999) or ice_lange (the paper's, which break more easily)
 ICE = ice
 # opening angle of the gravity tree, or direct sums: tree, direct
-THETA = 0.7
+THETA = 0.5
 GRAVITY = tree
 # further settings of the solver, KEY=VALUE (solver --parameters lists them)
 SET =
@@ -117,6 +117,7 @@ report = geometry.tsv before.tsv after.tsv fragments.tsv clumps.tsv run/conserve
 %/report.txt: $(here)ceres.awk %/before.tsv %/after.tsv %/fragments.tsv %/clumps.tsv
 	@awk -v run=$* -v n=$(N) -v least=$(LEAST) -v gravity=$(GRAVITY) -f $< $(report:%=$*/%) > $@
 %/checked: %/report.txt
+	@rm -f $@
 	@cat $<
 	@! grep -q '^FAILED' $<
 	@touch $@
