@@ -139,7 +139,7 @@ int sim_advance(Sim *sim, double until, SimStep *done, Err *err)
   if (sim->dt > 0 && sim->dt < done->dt)
     done->dt = sim->dt, done->limit = LIMITS + 1, done->id = -1;
   if (sim->par.step_max > 0 && sim->par.step_max < done->dt)
-    done->dt = sim->par.step_max, done->limit = LIMITS + 2;
+    done->dt = sim->par.step_max, done->limit = LIMITS + 2, done->id = -1;
   if (!(done->dt > sim->par.step_min)) {
     if (done->id >= 0) sim->b->look(sim, done->id, look, sizeof look);
     return err_set(err, "the time step collapsed to %.3g s (%s) at t = %.9g s: %s", done->dt,
@@ -151,6 +151,7 @@ int sim_advance(Sim *sim, double until, SimStep *done, Err *err)
     done->dt = 0.5 * left;
   dt = done->dt;
   if (in->step(sim, &dt, err)) return -1;
+  if (dt < done->dt) done->limit = LIMITS + 1, done->id = -1;
   done->dt = dt;
   sim->time = dt >= left ? until : sim->time + dt;
   sim->step++;
