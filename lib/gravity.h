@@ -8,7 +8,7 @@
  * Softening is symmetric: each pair feels the mass profile of a Wendland C2 kernel with the support
  * h_ij = (h_i + h_j)/2. With s = max(r, h_ij) and q = min(r/h_ij, 1)
  *   a = -G m F(q) r/s^3,  phi = -G m P(q)/s,  F(1) = P(1) = 1: exactly Newtonian from r = h_ij on,
- * and smooth at 0. Multipoles (validation.md A9, C2; 004 eq. 2.72, 2.73 corrected), Q = sum m (3
+ * and smooth at 0. Multipoles (docs/theory.md 4; 004 eq. 2.72, 2.73 corrected), Q = sum m (3
  * r_a r_b - r^2 delta_ab): phi = -G (M/r + rQr/2r^5),  a = G (-M r/r^3 + Q r/r^5 - 5/2 rQr r/r^7).
  */
 #ifndef GRAVITY_H

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Edges k = 0..n carry r and v, cells k+1/2 the state; cell k lies between the edges k and k+1.
- * Equations: 2.2, steps 1 to 5. */
+ * Equations: docs/theory.md 6.2. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include "lagrange.h"
 #include "unit.h"
 
-/* Artificial viscosity of 2.2 step 4, friction and stopping. */
+/* Artificial viscosity, friction and stopping. */
 static const double PI = 3.14159265358979323846, ALPHA = 1, BETA2 = 4, COURANT = 0.3, SLOW = 1e-4,
                     BALANCED = 1e-3;
 

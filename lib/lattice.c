@@ -14,7 +14,7 @@ typedef struct {
   double volume[4];  /* of a site in 1, 2, 3 dimensions */
 } Cell;
 
-/* bodies-and-analysis.md 2.1 (004 eq. 2.80 corrected) */
+/* docs/theory.md 6.1 (004 eq. 2.80 corrected) */
 static Cell cell(Lattice lattice)
 {
   if (lattice == LATTICE_CUBIC) return (Cell){1, 1, 0, 0, 0, {0, 1, 1, 1}};

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Two bodies as points: conics of every kind, head-on ones included, by formulas that have one
  * branch, and the approach to a contact given by angle and speed. Sources:
- * bodies-and-analysis.md 2.6 (corrects 004 eq. 2.85-2.104); the time is Kepler's equation in
+ * docs/theory.md 7 (corrects 004 eq. 2.85-2.104); the time is Kepler's equation in
  * universal variables with Stumpff's c3 (Danby, Fundamentals of Celestial Mechanics, sect. 6.9). */
 #ifndef ORBIT_H
 #define ORBIT_H

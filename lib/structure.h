@@ -2,7 +2,7 @@
 /* One-dimensional hydrostatic structure of a layered body at rest: dp/dr = -G m rho/r^2 with p = 0
  * outside. Each layer lies on the isentrope that passes through its energy u0 at zero pressure (du
  * = p/rho^2 drho), with the equation of state that the solver uses; layers meet at exact mass
- * coordinates with the same pressure. Two independent ways (bodies-and-analysis.md 2.2, 2.3):
+ * coordinates with the same pressure. Two independent ways (docs/theory.md 6.2):
  * structure_solve integrates outwards and finds the central pressure, lagrange_relax (lagrange.h)
  * lets shells fall to rest. */
 #ifndef STRUCTURE_H
