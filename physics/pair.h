@@ -41,7 +41,7 @@ typedef struct {
 
 /* Loop A: contributions to the raw velocity gradient g_ab = sum V_j (v_j - v_i)_a dW_b [1/s] and to
  * the moment matrix M_ab = sum V_j (x_j - x_i)_a dW_b, symmetric (001 eq. 41-44 with the errata of
- * validation.md C2). */
+ * docs/theory.md 9). */
 typedef struct {
   double gxx, gxy, gxz, gyx, gyy, gyz, gzx, gzy, gzz;
   double mxx, mxy, mxz, myy, myz, mzz;

@@ -61,7 +61,7 @@ HD void passes_keep_stress(double *s, Sym t)
 }
 
 /* passes_jaumann: dS/dt = 2 mu (e - tr e/3) + R S - S R, R = (g - g^T)/2. Corrects the sign of 001
- * eq. 9 (validation.md B11). */
+ * eq. 9 (docs/theory.md 9). */
 HD Sym passes_jaumann(Sym s, const double *g, double mu)
 {
   double rxy = 0.5 * (g[1] - g[3]), rxz = 0.5 * (g[2] - g[6]), ryz = 0.5 * (g[5] - g[7]);
@@ -273,7 +273,7 @@ HD void pass_advance(const State *s, const Step *k, long i)
 }
 
 /* passes_damp: -(v - v_frame)/tau, radial part only or all of it, in the co-rotating frame of the
- * particle's body (bodies-and- analysis.md 2.5). */
+ * particle's body (docs/theory.md 6.3). */
 HD void passes_damp(const State *s, const Step *k, long i, double *acc)
 {
   int b = s->body[i] >= 0 && s->body[i] < BODIES ? s->body[i] : 0;

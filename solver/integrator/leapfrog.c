@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Staggered leapfrog (performance notes in docs/theory.md): kick, drift, loop A at the middle of
+/* Staggered leapfrog (docs/theory.md 5.1): kick, drift, loop A at the middle of
  * the step with the mid-step velocity, local update of density, stress and damage, loop B at the
  * end with predicted velocities, kick. One evaluation of each loop and of gravity a step; second
  * order; positions for both loops share one tree and one set of lists. */

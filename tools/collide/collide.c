@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* collide: puts two bodies on the orbit that brings them into contact at t = 0 with a given angle
- * and speed (bodies-and-analysis.md 2.6; lib/orbit.h). */
+ * and speed (docs/theory.md 7; lib/orbit.h). */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

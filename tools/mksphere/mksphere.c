@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* mksphere: an uncompressed body of one or more layers as particles on a lattice
- * (bodies-and-analysis.md 2.1, 2.3). Every particle has the same volume; layers end at whole shells
+ * (docs/theory.md 6.1). Every particle has the same volume; layers end at whole shells
  * of the lattice and get their exact masses. */
 #include <math.h>
 #include <stdio.h>
