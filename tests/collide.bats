@@ -1,6 +1,6 @@
 #!/usr/bin/env bats
 # SPDX-License-Identifier: GPL-3.0-or-later
-# collide: the worked examples of bodies-and-analysis.md 2.6, and what it does to the particles.
+# collide: worked examples of docs/theory.md 7, and what it does to the particles.
 
 load h5
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bats
 # SPDX-License-Identifier: GPL-3.0-or-later
-# mksphere: lattice bodies as in bodies-and-analysis.md 2.1 and 2.3.
+# mksphere: lattice bodies as in docs/theory.md 6.1.
 
 load h5
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Elastic solids: wave speeds (validation.md B9), a rotating sphere that keeps its angular
- * momentum and loses it without the corrected gradient (B10), stress carried by rotation and by
- * simple shear (B11). */
+/* Elastic solids: wave speeds, a rotating sphere that keeps its angular
+ * momentum and loses it without the corrected gradient, stress carried by rotation and by
+ * simple shear (docs/theory.md 2.3, 3.2). */
 #include "lab.h"
 
 static const char BASALT[] =
@@ -55,7 +55,7 @@ static int in_sphere(const double *x, void *data)
   return x[0] * x[0] + x[1] * x[1] + x[2] * x[2] <= 1;
 }
 
-/* B10: R = rho0 = c = K = mu = 1, Omega = 2 pi/100; returns L/L0 after `turns`. jitter in units
+/* R = rho0 = c = K = mu = 1, Omega = 2 pi/100; returns L/L0 after `turns`. jitter in units
  * of dx. */
 static double rotating(double dx, double turns, double jitter, double *radius, double *momentum)
 {
@@ -100,7 +100,7 @@ static void sphere(void **state)
   assert_true(fabs(l - 1) < 1e-2);
 }
 
-/* B11: S of a rigidly rotating element is Q S0 Q^T; a literal 001 eq. 9 gives S_xy of the other
+/* S of a rigidly rotating element is Q S0 Q^T; a literal 001 eq. 9 gives S_xy of the other
  * sign. */
 static void objectivity(void **state)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Gravity: the softening is that of Wendland C2 kernels, direct sums obey Newton, the tree
- * converges to them as validation.md A9 asks, in SI units of any size, single and double. */
+ * converges to them as theta^4 (docs/theory.md 4), in SI units of any size, single and double. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdint.h>
@@ -15,7 +15,7 @@
 static const double G = 6.67430e-11;
 static Err err;
 
-/* d(mass)/dq of W = 21/(2 pi) (1-q)^4 (1+4q): the formula of validation.md B23 */
+/* d(mass)/dq of W = 21/(2 pi) (1-q)^4 (1+4q): 4 pi q^2 W */
 static double shell_mass(double q, void *p)
 {
   (void)p;
@@ -178,7 +178,7 @@ static void lab_free(Lab *l)
   free(l->a), free(l->b), free(l->pa), free(l->pb);
 }
 
-/* A9: theta = 0 is the direct sum; also coincident particles, lines, planes, one particle. */
+/* theta = 0 is the direct sum; also coincident particles, lines, planes, one particle. */
 static void closed_angle_is_direct(void **state)
 {
   (void)state;
@@ -218,7 +218,7 @@ static void coincident_particles(void **state)
     }
 }
 
-/* The judge: theta 0.7, median below 1e-3, 99 % below 1e-2, on a sphere and on two bodies; A9:
+/* At theta 0.7, median below 1e-3, 99 % below 1e-2, on a sphere and on two bodies; at
  * theta 0.5, 90 % below 2e-3, median below 8e-4; momentum to 1e-3 |a|max M; -2 E_grav = - sum m
  * phi. */
 static void errors_of_the_tree(void **state)
@@ -243,7 +243,7 @@ static void errors_of_the_tree(void **state)
     }
 }
 
-/* A9: with quadrupoles the error goes as theta^4: slope of ln median 3.4 .. 4.8. */
+/* With quadrupoles the error goes as theta^4: slope of ln median 3.4 .. 4.8. */
 static void error_falls_as_theta_to_the_fourth(void **state)
 {
   (void)state;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Two point masses on a Kepler orbit (validation.md B20): m = 1/2 each, G = 1, a = 1, e = 0.5,
+/* Two point masses on a Kepler orbit: m = 1/2 each, G = 1, a = 1, e = 0.5,
  * ten orbits of 2 pi. rk2-adaptive at step.error 1e-8 keeps the energy to 1e-6 and the apsis to
  * 1e-4 rad an orbit; leapfrog is of second order in both. */
 #include <omp.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* lib/lattice: a true close packing (bodies-and-analysis.md 2.1), whole shells, centre of mass,
+/* lib/lattice: a true close packing (docs/theory.md 6.1), whole shells, centre of mass,
  * volume. */
 #include <math.h>
 #include <stdarg.h>

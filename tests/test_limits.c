@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What limits a step is named, with the particle and the value that the formula has (001 eq.
- * 54-57 with the errata of validation.md C2); a state that makes no sense, or a step that
+ * 54-57 with the errata of docs/theory.md 9); a state that makes no sense, or a step that
  * collapses, stops the run with the particle's id and state. */
 #include <omp.h>
 #include "lab.h"

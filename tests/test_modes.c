@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What each setting of a run promises, with both integrators: damping in the frame of each body,
- * frozen entropy, the smoothing modes, the density modes and their interfaces (validation.md
- * A8), yield. */
+ * frozen entropy, the smoothing modes, the density modes and their interfaces (docs/theory.md
+ * 2.2), yield. */
 #include <omp.h>
 #include "lab.h"
 #include "../lib/rng.h"
@@ -222,7 +222,7 @@ static Parts *interface_block(double ratio, int half, int across)
   return p;
 }
 
-/* A8: a kernel sum smears a jump of density (with ratio 1.768 the heavy layer has 0.905, the
+/* A kernel sum smears a jump of density (with ratio 1.768 the heavy layer has 0.905, the
  * light one 1.169 of its own), the number-density form does not; so the pressure jumps there or
  * not. */
 static void interfaces(void **state)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* lib/orbit: the worked examples of bodies-and-analysis.md 2.6, closed forms of the special conics,
+/* lib/orbit: worked examples (docs/theory.md 7), closed forms of the special conics,
  * and a numerical two-body integration as an independent check. */
 #include <math.h>
 #include <stdarg.h>
@@ -115,7 +115,7 @@ static void test_regression(void **state)
 }
 
 /* The impact of 001 sect. 5.1 backwards: b0 819 km and 744 m/s at 11369 km give contact after 233
- * min at 893 m/s, 46.2 deg (validation.md A5). */
+ * min at 893 m/s, 46.2 deg. */
 static void test_state(void **state)
 {
   double mu = G * 2 * 9.43e20, r0 = 1.1369e7, rc = 9.46e5, b0 = 8.19e5;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The pair terms (pair.h) and the loops that sum them. Signs, where 001 eq. 30, 31, 34, 35, 43
- * as printed fail (validation.md C2); momentum and energy of every pair; the stamped loops of
+ * as printed fail (docs/theory.md 9); momentum and energy of every pair; the stamped loops of
  * the backend against all pairs; the corrected gradient of a linear field. */
 #include <omp.h>
 #include "lab.h"

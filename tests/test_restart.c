@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A run that is stored at some step and continued from there ends with the bits of the run that
- * went on (validation.md B22), for both integrators, all density modes, both gravities, strength
+ * went on, for both integrators, all density modes, both gravities, strength
  * and damage; and no result depends on the number of threads. */
 #include <omp.h>
 #include "lab.h"

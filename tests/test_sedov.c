@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Sedov's blast in 3D, gamma 5/3 (validation.md B2): R = (E t^2/(0.49358 rho))^(1/5) = 0.34747
+/* Sedov's blast in 3D, gamma 5/3: R = (E t^2/(0.49358 rho))^(1/5) = 0.34747
  * at t = 0.05 for E = 1e0 in a unit box; outer half-maximum of the binned density within 5 % at
  * 32^3, its peak >= 1.9, isotropy, energy and momentum. */
 #include "lab.h"

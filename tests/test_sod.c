@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Sod's shock tube in 1D against the exact Riemann solution (validation.md B1: rel. L1 of rho,
+/* Sod's shock tube in 1D against the exact Riemann solution (rel. L1 of rho,
  * v, P below 0.07, 0.16, 0.085 at about 450 particles, 0.012, 0.03, 0.015 at 4500), its order of
  * convergence, and conservation. */
 #include "lab.h"
@@ -8,7 +8,7 @@ static const char GAS[] = "name = \"gas\"; eos = { form = \"ideal\"; gamma = 1.4
 
 enum { LEFT = 1, RIGHT = 0 };
 
-/* The exact solution at x/t = xi for (1,1,0) | (0.125,0.1,0), gamma 1.4: star states of B1. */
+/* The exact solution at x/t = xi for (1,1,0) | (0.125,0.1,0), gamma 1.4: its star states. */
 static void exact(double xi, double *rho, double *v, double *p)
 {
   const double g = 1.4, ps = .303130178050647, us = .927452620048950, cl = sqrt(1.4),

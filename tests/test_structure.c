@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* lib/structure and lib/lagrange: the acceptance bodies of bodies-and-analysis.md 2.2, the
- * proto-Earth of validation.md A8, the closed form of weak compression, agreement of the two
+/* lib/structure and lib/lagrange: bodies of one and two layers (docs/theory.md 6.2), the
+ * proto-Earth of 004 fig. 2.1, the closed form of weak compression, agreement of the two
  * methods, and what laying on particles keeps. */
 #include <math.h>
 #include <stdarg.h>
@@ -16,7 +16,7 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* Murnaghan bodies of 2.2 (n = 4) and Tillotson materials of validation.md C1. */
+/* Murnaghan bodies (n = 4) and Tillotson materials as in materials/. */
 static const Eos ROCK = {.form = EOS_MURNAGHAN, .murnaghan = {.rho0 = 2700, .K = 5.0e10, .n = 4}};
 static const Eos METAL = {.form = EOS_MURNAGHAN, .murnaghan = {.rho0 = 7800, .K = 1.28e11, .n = 4}};
 /* clang-format off */
@@ -84,7 +84,7 @@ static void test_acceptance_relaxed(void **state)
   structure_free(&a), structure_free(&b), structure_free(&fine);
 }
 
-/* validation.md A8: iron and granite on their cold isentropes. */
+/* 004 fig. 2.1: iron and granite on their cold isentropes. */
 static void test_proto_earth(void **state)
 {
   Structure s = solve(PROTO, 2, 400);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* lib/weibull against validation.md B18. */
+/* lib/weibull: thresholds, numbers and spread of flaws (docs/theory.md 3.5). */
 #include <math.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -61,7 +61,7 @@ static double harmonic(long n)
   return h;
 }
 
-/* The lowest thresholds of the sphere, four digits after the point printed in B18. */
+/* The lowest thresholds of the sphere, (1/(k V))^(1/m) to four digits after the point. */
 static void test_lowest(void **state)
 {
   const double want[][3] = {

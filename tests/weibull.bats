@@ -1,6 +1,6 @@
 #!/usr/bin/env bats
 # SPDX-License-Identifier: GPL-3.0-or-later
-# weibull: the tool around lib/weibull (whose statistics test_weibull checks, validation.md B18).
+# weibull: the tool around lib/weibull (whose statistics test_weibull checks).
 
 load h5
 
@@ -14,7 +14,7 @@ setup() {
   n=$(field b.h5 ParticleIDs | wc -l)
   field w.h5 FlawThresholds | sort -g >flaws
   [ "$(field w.h5 FlawCount | sort -n | head -1)" -ge 1 ]
-  true_that 'near(low, 2.4103e-4, 5e-5)' low="$(head -1 flaws)" # validation.md B18
+  true_that 'near(low, 2.4103e-4, 5e-5)' low="$(head -1 flaws)" # (1/(k V))^(1/m)
   [ "$(field w.h5 Damage | uniq)" = 0 ]
   awk -F'\t' -v n="$n" -v flaws="$(wc -l <flaws)" -v low="$(head -1 flaws)" -v high="$(tail -1 flaws)" '
     function near(a, b) { return (a - b) ^ 2 < 1e-16 * b * b }
