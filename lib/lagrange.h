@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Hydrostatic structure by letting Lagrangian shells fall to rest under friction (Benz 1991;
- * 004 sect. 2.4.2 with its signs corrected; docs/theory.md 6.2): independent of structure_solve, and free of
+ * docs/theory.md 6.2, corrects 004 sect. 2.4.2): independent of structure_solve, and free of
  * its assumption that the pressure determines the density. */
 #ifndef LAGRANGE_H
 #define LAGRANGE_H
