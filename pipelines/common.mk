@@ -15,8 +15,9 @@ root := $(abspath $(dir $(lastword $(MAKEFILE_LIST)))..)
 ifneq ($(wildcard $(root)/Makefile),)
 BIN ?= $(root)/bin
 programs := $(BIN)/solver
+build = $(MAKE)
 $(BIN)/solver:
-	@MAKEFLAGS= MAKEOVERRIDES= $(MAKE) -C $(root) -j$(shell nproc)
+	MAKEFLAGS= $(build) -C $(root) -j$(shell nproc)
 else
 BIN ?= $(abspath $(root)/../../bin)
 programs :=
