@@ -148,7 +148,7 @@ END {
   other = asked["ContactAngle"] != 48 || abs(asked["ContactSpeed"] / asked["EscapeSpeed"] - 1.7) > 1e-6 ? \
     "only for 48 degrees and 1.7 v_esc" : short
   few = other != "" ? other : n < 1500 ? "from 1500 particles on: one is a large part of a percent" : ""
-  torque = n < 5000 ? "from 5000 particles on: shear forces are not central, their torque goes as 1/N" : ""
+  torque = n < 8000 ? "from 8000 particles on: shear forces are not central, their torque goes as 1/N" : ""
   bound = gravity == "direct" ? 1e-10 : 1e-4
   check("before contact the bodies are at rest: rms v < 1 % of v_esc", stir < 0.01, early)
   check("before contact they keep their radius to 1 %", abs(swell) < 0.01, early)

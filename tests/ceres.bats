@@ -128,7 +128,7 @@ analysis='clumps fof gnuplot render '
   mock
   SPIN=3 run study
   [ "$status" = 0 ] # 100 particles: not judged
-  sed 's/n < 5000/n < 0/' pipelines/ceres.awk >"$BATS_TEST_TMPDIR/ceres.awk"
+  sed 's/n < 8000/n < 0/' pipelines/ceres.awk >"$BATS_TEST_TMPDIR/ceres.awk"
   cp pipelines/*.mk pipelines/*.gp "$BATS_TEST_TMPDIR"
   SPIN=3 run make -s -f "$BATS_TEST_TMPDIR/ceres.mk" BIN="$mock" N=100 OUT="$OUT" check
   [ "$status" != 0 ] && [[ $output == *"FAILED  angular momentum"* ]]

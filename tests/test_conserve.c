@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a run conserves (validation.md B22): momentum to rounding with direct gravity, angular
+/* What a run conserves: momentum to rounding with direct gravity, angular
  * momentum of fluids, energy; a boosted and a mirrored system do the same; a free oscillation
  * keeps its energy; a planar run stays in its plane. And a bar that is pulled breaks where it
  * has flaws, and only then. */
@@ -152,7 +152,7 @@ static void planar(void **state)
   part_free(p);
 }
 
-/* A strip of 30 x 10 whose ends are pulled apart (B13): damage only grows, keeps to the active
+/* A strip of 30 x 10 whose ends are pulled apart: damage only grows, keeps to the active
  * flaws, and with flaws in the middle half the strip parts; without flaws it has sprung back by
  * then. */
 static void tensile(int flaws, double *apart, double *worst)
