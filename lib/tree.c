@@ -63,8 +63,8 @@ static void hilbert_keys(const Cube *cube, long n, const double *x, uint64_t *ke
   }
 }
 
-/* The smallest cube from the lowest corner on that holds all, or one half as long again whose corner
- * is drawn by shift; -1 - k when the k-th coordinate is bad. */
+/* The smallest cube from the lowest corner on that holds all, or one half as long again whose
+ * corner is drawn by shift; -1 - k when the k-th coordinate is bad. */
 static long find_cube(long n, const double *x, uint64_t shift, Cube *cube)
 {
   double x0 = FAR, y0 = FAR, z0 = FAR, x1 = -FAR, y1 = -FAR, z1 = -FAR;

@@ -58,8 +58,9 @@ typedef struct {
 
 /* tree_order: the Hilbert order of particles at x [n][3]: order[k] is the particle that comes k-th;
  * equal keys by id (NULL: by index). shift: 0, or a number that draws where the root cube lies: the
- * errors of gravity then differ from tree to tree and do not add up over a run. Returns 0, or -1: no memory, or a coordinate that is not
- * finite (or beyond 1e150); the message names the particle's id. */
+ * errors of gravity then differ from tree to tree and do not add up over a run. Returns 0, or -1:
+ * no memory, or a coordinate that is not finite (or beyond 1e150); the message names the
+ * particle's id. */
 int tree_order(long n, const double *x, const int64_t *id, uint64_t shift, long *order, Err *err);
 
 /* tree_build: nodes and groups of particles that ARE in Hilbert order (see tree_order) at x [n][3],

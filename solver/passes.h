@@ -355,7 +355,8 @@ HD void pass_save(const State *s, const Step *k, long i)
   to->crack[i] = k->rates ? s->dcrack[i] : cbrt(s->damage[i]);
 }
 
-/* passes_sum: q + dt (w1 k1 + w2 k2 + w3 k3) of one number; q itself when dt is 0, whatever the k. */
+/* passes_sum: q + dt (w1 k1 + w2 k2 + w3 k3) of one number; q itself when dt is 0, whatever the k
+ * are. */
 #define PASSES_SUM(MEMBER, J)                                                                      \
   (s->saved[0].MEMBER[J] + (k->dt > 0 ? k->dt * (k->weight[0] * s->saved[1].MEMBER[J] +            \
                                                  k->weight[1] * s->saved[2].MEMBER[J] +            \
