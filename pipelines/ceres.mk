@@ -22,7 +22,7 @@ SEED = 1
 # mantle: ice (flaws of Benz & Asphaug 1999) or ice_lange (the paper's, which break more easily)
 ICE = ice
 # opening angle of the gravity tree, or direct sums: tree, direct
-THETA = 0.5
+THETA = 0.7
 GRAVITY = tree
 # further settings of the solver, KEY=VALUE (solver --parameters lists them)
 SET =
