@@ -4,10 +4,10 @@
 #   make -f pipelines/ceres.mk ANGLE='15 48' SPEED='1.2 1.7' -j2   a sweep; the bodies are shared
 #   make -f pipelines/ceres.mk post                                only the analysis, again, on the dumps that are there
 #   make -f pipelines/ceres.mk N=200000 THETA=0.5                  as in the paper
-# Killed at any point, the same command goes on. A result's path says what it is: OUT/N4000-s1/a48-v1.7/report.txt.
+# Killed at any point, the same command goes on. A result's path says what it is: OUT/N3000-s1/a48-v1.7/report.txt.
 
 # particles in both bodies together
-N = 4000
+N = 3000
 # impact angle [degrees], 0 is head-on
 ANGLE = 48
 # impact speed [mutual escape speed at contact]
