@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The CUDA backend's own data, shared by its files. Everything stays on the device from open to
+ * close; arrays of the state are in Hilbert order and permuted at every search.
+ *
+ * Precision. The state is double. Pair arithmetic is single (--precision mixed) on differences of
+ * coordinates kept as two floats, hi + lo: exact to 2^-48 of the root cube, antisymmetric in the
+ * pair, independent of where the group lies, and quick on every card. It runs in code units, powers
+ * of two, so that scaling rounds nothing and no power of a length leaves the range of a float. */
+#ifndef CUDA_H
+#define CUDA_H
+
+extern "C" {
+#include "../backend.h"
+}
+#include "launch.h"
+
+enum {
+  CUDA_GROUP = 32, /* particles that share a neighbour list block: i / 32, lane i % 32 */
+  CUDA_LEVELS = 21
+};
+
+/* Code units in SI, powers of two: about an h, a particle's mass, a sound speed. */
+typedef struct {
+  double length, mass, speed; /* m, kg, m/s */
+} Units;
+
+/* The root cube of this search [m]; on the device, read by pointer. */
+typedef struct {
+  double origin[3], edge;
+} Root;
+
+/* Positions of all particles from the root's origin in code units: x = hi.xyz + lo.xyz. */
+typedef struct {
+  float4 *hi; /* [n] w: h */
+  float4 *lo; /* [n] w: m (points x), volume m/rhoa (points y) */
+} Points;
+
+/* A node's moments in code units from the root's origin: com = hi + lo; q = sum m (3 r_a r_b - r^2
+ * delta_ab) about com. */
+typedef struct {
+  float hi[3], mass, lo[3], pad, q[6], pad2[2];
+} Pole;
+
+/* The octree: nodes ordered by level, then along the curve; a node's children are consecutive; the
+ * root is node 0. Leaves hold at most TREE_BUCKET particles unless these share a cell of the last
+ * level. Boxes are tight, in code units from the root's origin, rounded outwards. */
+typedef struct {
+  int4 *link;   /* [nodes] x: first child, y: children (0: leaf), z: first particle, w: particles */
+  float4 *lo;   /* [nodes] box; w: size, the longest edge of the smallest cell */
+  float4 *hi;   /* [nodes] box; w: h_max */
+  float4 *com;  /* [nodes] centre of mass, rounded; w: mass */
+  Pole *pole;   /* [nodes] */
+  double *moment; /* [nodes][10] SI, for the upward pass */
+  int *level;   /* [CUDA_LEVELS + 2] first node of each level; level[CUDA_LEVELS + 1]: all nodes */
+  int nodes, levels; /* as the host knows them after cuda_tree */
+  long room;
+} DeviceTree;
+
+/* Neighbour lists: entry k of particle i is list[start[i / 32] + 32 k + i % 32], k < count[i]. A
+ * pair is listed when it interacts at x or at y; now and then one more that does not, by rounding:
+ * the loops test. Ascending in j. */
+typedef struct {
+  int64_t *start;  /* [groups + 1] */
+  int *count;      /* [n] */
+  uint32_t *list;
+  int64_t room;
+} Lists;
+
+typedef struct {
+  CudaError error;
+  cudaStream_t stream;
+  Units unit;
+  Root *root;
+  Points x, y; /* loop B, gravity and search at x with h; loop A at y with ha */
+  DeviceTree tree;
+  Lists lists;
+  PairRun run;
+  struct CudaOrder *order;     /* private to order.cu */
+  struct CudaTree *build;      /* private to tree.cu */
+  struct CudaSearch *search;   /* private to search.cu */
+  struct CudaLoops *loops;     /* private to loops.cu */
+  struct CudaGravity *gravity; /* private to gravity.cu */
+  struct CudaReduce *reduce;   /* private to reduce.cu */
+  double *pull;                /* [n][3] gravity [m/s^2], kept between evaluations */
+} Cuda;
+
+static inline Cuda *cuda_of(const Sim *sim) { return (Cuda *)sim->own; }
+
+/* Each file: open allocates, close frees (also after a failed open); steps return 0 or -1 with a
+ * message. No step but cuda_search, cuda_limits, cuda_sums, cuda_bodies waits for the device. */
+int cuda_order_open(Sim *sim, Err *err);
+int cuda_order(Sim *sim, Err *err); /* root, keys, sort, permutation; then points x and y */
+void cuda_order_close(Sim *sim);
+int cuda_tree_open(Sim *sim, Err *err);
+int cuda_tree(Sim *sim, Err *err); /* nodes, boxes, moments from points x and the state */
+void cuda_tree_close(Sim *sim);
+int cuda_lists_open(Sim *sim, Err *err);
+int cuda_lists(Sim *sim, Err *err); /* exact lists; grows them and repeats when they are too short */
+void cuda_lists_close(Sim *sim);
+int cuda_loops_open(Sim *sim, Err *err);
+void cuda_gradient(Sim *sim);
+void cuda_density(Sim *sim);
+void cuda_force(Sim *sim);
+void cuda_loops_close(Sim *sim);
+int cuda_gravity_open(Sim *sim, Err *err);
+int cuda_gravity(Sim *sim, Err *err); /* tree or direct: pull and phi, added to acc */
+void cuda_gravity_close(Sim *sim);
+int cuda_reduce_open(Sim *sim, Err *err);
+void cuda_limits(Sim *sim, const Step *step, Limits *out);
+void cuda_sums(Sim *sim, Sums *out);
+void cuda_bodies(Sim *sim, Step *step);
+double cuda_error(Sim *sim, const Step *step);
+void cuda_reduce_close(Sim *sim);
+
+#endif
