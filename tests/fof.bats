@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # fof on two spheres of known mass: table, escape speed (001 eq. 74), filters, ids, errors.
 
+load h5
+
 setup_file() {
   cd "$BATS_FILE_TMPDIR"
   mksphere -n 2000 --mass 9e20 --layer basalt:0.7 --layer ice:0.3 -o a.h5
@@ -40,6 +42,44 @@ near() { awk -v a="$1" -v b="$2" 'BEGIN { d = a - b; exit !(d * d <= 1e-12 * b *
   fof two.h5 >table
   [ "$(column fate | tail -1)" = accreted ]
   awk -v x="$(column v_rel/v_esc | tail -1)" 'BEGIN { exit !(x > 1) }'
+}
+
+# placed FILE "x y vx vy"...: its fragments, by mass, put there [km, m/s]: placed.h5.
+placed() {
+  rm -f placed.h5
+  fof -o ids.h5 "$1" >/dev/null
+  shift
+  paste -d' ' <(field ids.h5 FragmentID) <(field ids.h5 Coordinates 3) >was
+  for where; do echo "to $where"; done | awk '
+    BEGIN { b = 1 }
+    $1 == "to" { X[b] = $2 * 1e3; Y[b] = $3 * 1e3; v[b++] = $4 " " $5 " 0"; next }
+    NR != FNR && FNR == 1 { pass++ }
+    pass == 1 { n[$1]++; x[$1] += $2; y[$1] += $3; z[$1] += $4; next }
+    { printf "%.17g %.17g %.17g %s\n", $2 - x[$1] / n[$1] + X[$1], $3 - y[$1] / n[$1] + Y[$1], $4 - z[$1] / n[$1], v[$1] }' - was was >is
+  without "Coordinates Velocities" ids.h5 placed.h5
+  cut -d' ' -f1-3 is | put placed.h5 Coordinates 3
+  cut -d' ' -f4-6 is | put placed.h5 Velocities 3
+}
+# fates FILE PLACE...: what becomes of them.
+fates() { placed "$@" && fof placed.h5 >table && column fate | tr '\n' ' '; }
+
+@test "survivors are judged by their pair alone, smaller fragments by eq. 74 too" {
+  mksphere -n 300 --mass 9e20 --layer basalt:1 -o big.h5
+  mksphere -n 20 --mass 5e19 --layer basalt:1 -o small.h5
+  collide big.h5 big.h5 --angle 0deg --speed 2vesc --distance 4 -o pair.h5
+  collide pair.h5 small.h5 --angle 0deg --speed 2vesc --distance 6 -o three.h5
+  # 3000 km apart: v_esc = sqrt(2 G 1.8e21 kg/3e6 m) = 283 m/s, circular 200 m/s
+  [ "$(fates pair.h5 "-1500 0 -145 0" "1500 0 145 0")" = "escape escape " ]
+  [ "$(fates pair.h5 "-1500 0 -138 0" "1500 0 138 0")" = "accreted accreted " ] # fall back onto each other
+  [ "$(fates pair.h5 "-1500 0 0 -110" "1500 0 0 110")" = "bound bound " ]       # an ellipse, 3000 to 4600 km
+  [ "$(fates two.h5 "-750 0 -75 0" "2250 0 225 0")" = "escape escape " ] # 9e20 and 3e20 kg: 231 m/s
+  # the small one: at rest between them; around one of them (252 m/s is circular); behind, where 1.8e21 kg
+  # are nearer, with 200 m/s to escape, and out of the reach of either
+  local parting=("-1500 0 -150 0" "1500 0 150 0")
+  [ "$(fates three.h5 "${parting[@]}" "0 0 0 0")" = "escape escape accreted " ]
+  [ "$(fates three.h5 "${parting[@]}" "1500 1000 402 0")" = "escape escape bound " ]
+  [ "$(fates three.h5 "${parting[@]}" "0 6000 0 150")" = "escape escape bound " ]
+  [ "$(fates three.h5 "${parting[@]}" "0 6000 0 300")" = "escape escape escape " ]
 }
 
 @test "momenta of the fragments cancel in the barycentric frame" {

@@ -28,3 +28,18 @@ bad() {
   [ "$status" = "$code" ] && [ "${#lines[@]}" = 1 ] && [[ $output == "$1: "*"$message"* ]] &&
     [ ! -s "$BATS_TEST_TMPDIR/stdout" ] || { echo "$* -> $status, $output"; return 1; }
 }
+
+# without NAMES FROM TO: a copy that lacks these particle fields. put FILE NAME COLUMNS: adds one, values on stdin.
+without() {
+  local name
+  for name in $(h5ls "$2/PartType0" | awk '{print $1}'); do
+    [[ " $1 " == *" $name "* ]] || h5copy -p -i "$2" -o "$3" -s "/PartType0/$name" -d "/PartType0/$name"
+  done
+  for name in Header Units Materials; do h5copy -i "$2" -o "$3" -s "/$name" -d "/$name"; done
+}
+put() {
+  cat >"$2.txt"
+  printf 'PATH PartType0/%s\nINPUT-CLASS TEXTFP\nRANK %d\nDIMENSION-SIZES %d%s\nOUTPUT-CLASS FP\nOUTPUT-SIZE 64\n' \
+    "$2" $((1 + ($3 > 1))) "$(wc -l <"$2.txt")" "$([ "$3" = 1 ] || echo " $3")" >"$2.cfg"
+  h5import "$2.txt" -c "$2.cfg" -o "$1"
+}

@@ -108,14 +108,6 @@ like_whole() {
   [ "$(number run/checkpoint.h5 /Header/Time)" != "$(number run/snap_0000.h5 /Header/Time)" ]
 }
 
-# without DATASET FROM TO: a copy that lacks a particle field.
-without() {
-  for name in $(h5ls "$2/PartType0" | awk '{print $1}'); do
-    [ "$name" = "$1" ] || h5copy -p -i "$2" -o "$3" -s "/PartType0/$name" -d "/PartType0/$name"
-  done
-  for group in Header Units Materials; do h5copy -i "$2" -o "$3" -s "/$group" -d "/$group"; done
-}
-
 # refused MESSAGE COMMAND: the shell's command ends with 1 and one line on stderr.
 refused() {
   run bash -c "$2 2>&1 >/dev/null"
@@ -128,11 +120,7 @@ refused() {
   : >empty
   without SmoothingLength ../s.h5 lacks.h5
   without Masses ../s.h5 negative.h5
-  field ../s.h5 Masses | sed '7s/^/-/' >masses.txt
-  printf 'PATH PartType0/Masses\nINPUT-CLASS TEXTFP\nRANK 1\nDIMENSION-SIZES %d\nOUTPUT-CLASS FP\nOUTPUT-SIZE 64\n' \
-    "$(wc -l <masses.txt)" >masses.cfg
-  h5import masses.txt -c masses.cfg -o masses.h5
-  h5copy -i masses.h5 -o negative.h5 -s /PartType0/Masses -d /PartType0/Masses
+  field ../s.h5 Masses | sed '7s/^/-/' | put negative.h5 Masses 1
   bad 1 "'cut.h5': truncated" solver -o run --end +1s cut.h5
   bad 1 "'text.h5': not an HDF5 file" solver -o run --end +1s text.h5
   bad 1 "'nowhere.h5': No such file" solver -o run --end +1s nowhere.h5

@@ -37,15 +37,14 @@ static const OptProgram program = {
     .name = "fof",
     .does = "find fragments by friends of friends",
     .usage = "[options] snapshot.h5 > fragments.tsv",
-    .about = "One row a fragment, by descending mass; r and v are relative to the barycentre of "
-             "all particles. v_esc = "
-             "sqrt(2 G M_r/r) with M_r the mass of all fragments nearer to the barycentre (001 eq. "
-             "74); near is the survivor "
-             "that binds the fragment most, with the two-body orbit about it. fate: accreted (the "
-             "orbit hits that survivor), "
-             "bound (to it, or slower than the escape speed with the fragment's own mass added to "
-             "M_r), escape. "
-             "water counts materials with ice, water or h2o in their name.",
+    .about =
+        "One row a fragment, by descending mass; r and v are relative to the barycentre of "
+        "all particles. v_esc = sqrt(2 G M_r/r) with M_r the mass of all fragments nearer to "
+        "the barycentre (001 eq. 74); near is the survivor that binds the fragment most, with "
+        "the two-body orbit about it. fate: accreted (the orbit hits that survivor), bound (to "
+        "it, or slower than the escape speed with the fragment's own mass added to M_r), "
+        "escape. Survivors are judged by their orbit about each other alone. water counts "
+        "materials with ice, water or h2o in their name.",
     .example = "fof --min-particles 20 run/snap_0100.h5",
     .opts = opts,
     .min_inputs = 0,
@@ -178,11 +177,13 @@ static Fragment *measure(const Parts *p, const int32_t *id, long n, const Group 
   return f;
 }
 
-/* The survivor that binds f[k] most, and what becomes of the fragment. */
+/* The survivor that binds f[k] most, and what becomes of the fragment. Survivors are judged by their
+ * pair alone: seen from the barycentre each is slower than v_esc even when they part for good. */
 static void judge(Fragment *f, long n, long k)
 {
   Group *g = &f[k].g;
-  for (long s = 0; s < n && f[s].g.mass >= arg.survivors * f[0].g.mass; s++) {
+  double least = arg.survivors * f[0].g.mass;
+  for (long s = 0; s < n && f[s].g.mass >= least; s++) {
     Group *b = &f[s].g;
     if (s == k) continue;
     GroupPair pair = group_pair(b->x, b->v, b->mass, g->x, g->v, g->mass);
@@ -190,11 +191,11 @@ static void judge(Fragment *f, long n, long k)
     f[k].pair = pair, f[k].near = s + 1;
   }
   const GroupPair *o = &f[k].pair;
+  int held = f[k].near && o->orbit.beta > 0, survivor = f[k].near && g->mass >= least;
   double mass = f[k].inside + g->mass;
-  if (f[k].near && o->orbit.rp < f[f[k].near - 1].g.radius + g->radius &&
-      (o->orbit.beta > 0 || o->v_r < 0))
+  if (f[k].near && o->orbit.rp < f[f[k].near - 1].g.radius + g->radius && (held || o->v_r < 0))
     f[k].fate = "accreted";
-  else if ((f[k].near && o->orbit.beta > 0) || f[k].v * f[k].v * f[k].r <= 2 * UNIT_G * mass)
+  else if (held || (!survivor && f[k].v * f[k].v * f[k].r <= 2 * UNIT_G * mass))
     f[k].fate = "bound";
   else
     f[k].fate = "escape";
