@@ -86,6 +86,7 @@ int main(int argc, char **argv)
 {
   int n, rc;
   char **inputs = opt_parse(&program, argc, argv, &n);
+  const char *file;
   Param par = settings();
   Parts *parts;
   Err err;
@@ -95,7 +96,10 @@ int main(int argc, char **argv)
     err_close_stdout();
     return 0;
   }
-  if (!(parts = snap_read(n ? inputs[0] : "-", &err))) err_die("%s", err.text);
+  file = n ? inputs[0] : "stdin";
+  if (!(parts = snap_read(n ? file : "-", &err)) || part_need(parts, SIM_FIELDS, file, &err) ||
+      part_check(parts, file, &err))
+    err_die("%s", err.text);
   o.dir = dir, o.device = device, o.command = command_of(argc, argv);
   o.end = end_time(parts->time);
   o.every = isnan(every) ? (o.end - parts->time) / 50 : every;

@@ -43,8 +43,7 @@ static void smoothing_range(Sim *sim, const Parts *p)
 static int open_common(Sim *sim, const Param *par, const Parts *p, const char *device, Err *err)
 {
   memset(sim, 0, sizeof *sim);
-  if (part_need(p, "id x v m rho u h mat body", "input", err) || part_check(p, "input", err))
-    return -1;
+  if (part_need(p, SIM_FIELDS, "input", err) || part_check(p, "input", err)) return -1;
   if (strcmp(device, "auto") != 0 && strcmp(device, "cpu") != 0)
     return err_set(err, "cannot use device '%s': this build has only the cpu backend", device);
   for (long i = 0; i < p->n && par->damping > 0; i++)

@@ -5,7 +5,10 @@
 
 #include "integrator.h"
 
-/* sim_open: checks what the solver needs (id x v m rho u h mat body; density floor, units), parses
+/* SIM_FIELDS: what the solver needs of its input. */
+#define SIM_FIELDS "id x v m rho u h mat body"
+
+/* sim_open: checks what the solver needs (SIM_FIELDS; density floor, units), parses
  * the materials, gives the particles to the backend named by device ("auto", "cpu") and, unless
  * parts come from a checkpoint, evaluates the first rates. parts stays the caller's. Returns 0 or
  * -1. */

@@ -125,8 +125,9 @@ refused() {
   bad 1 "'text.h5': not an HDF5 file" solver -o run --end +1s text.h5
   bad 1 "'nowhere.h5': No such file" solver -o run --end +1s nowhere.h5
   refused "'stdin': empty" 'solver -o run --end +1s <empty'
-  bad 1 "field 'SmoothingLength' (made by mksphere)" solver -o run --end +1s lacks.h5
-  bad 1 "particle 6: Masses is -3.70811e+16, must be positive" solver -o run --end +1s negative.h5
+  bad 1 "'lacks.h5' lacks field 'SmoothingLength' (made by mksphere)" solver -o run --end +1s lacks.h5
+  refused "'stdin' lacks field 'SmoothingLength'" 'cat lacks.h5 | solver -o run --end +1s'
+  bad 1 "'negative.h5': particle 6: Masses is -3.70811e+16, must be positive" solver -o run --end +1s negative.h5
   [ ! -e run ]
 }
 

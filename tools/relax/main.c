@@ -90,7 +90,7 @@ static int prepare(Body *b, const char *path, Err *err)
   const StructureNode *top;
   int n;
   if (!(b->p = snap_read(path, err))) return -1;
-  if (part_need(b->p, "id x v m rho u h mat body", path ? path : "stdin", err)) return -1;
+  if (part_need(b->p, SIM_FIELDS, path ? path : "stdin", err)) return -1;
   if (part_check(b->p, path ? path : "stdin", err)) return -1;
   if (!(b->material = material_load(b->p, err))) return -1;
   if (!(b->layer = malloc(sizeof *b->layer * (size_t)(b->p->n ? b->p->n : 1))))
