@@ -26,10 +26,10 @@ void err_program(const char *argv0);
 const char *err_name(void);
 
 /* err_die: prints `program: message` on stderr after flushing stdout and exits with ERR_FAILED. */
-_Noreturn void err_die(const char *format, ...) __attribute__((format(printf, 1, 2)));
+void err_die(const char *format, ...) __attribute__((format(printf, 1, 2), noreturn));
 
 /* err_usage: the same with ERR_USAGE and a hint to --help. */
-_Noreturn void err_usage(const char *format, ...) __attribute__((format(printf, 1, 2)));
+void err_usage(const char *format, ...) __attribute__((format(printf, 1, 2), noreturn));
 
 /* err_warn: prints `program: warning: message` on stderr and goes on. */
 void err_warn(const char *format, ...) __attribute__((format(printf, 1, 2)));
