@@ -61,14 +61,6 @@ static Parts *spheres(long n)
   return p;
 }
 
-static PairBody body_of(const State *s, long i)
-{
-  const double *x = &s->x[3 * i], *v = &s->vp[3 * i], *t = &s->t[6 * i];
-  PairBody b = {x[0],      x[1],     x[2],     v[0], v[1], v[2], s->h[i], s->m[i], 1 / s->m[i],
-                s->rho[i], s->cs[i], s->cl[i], t[0], t[1], t[2], t[3],    t[4],    t[5]};
-  return b;
-}
-
 /* Acceleration and heating of sampled particles by all pairs; gravity with an error as
  * tests/test_gravity allows. */
 static void check(const Sim *sim)
@@ -80,17 +72,18 @@ static void check(const Sim *sim)
   for (long k = 0; k < SAMPLES; k++) {
     const long i = k * (s->n / SAMPLES);
     double a[3] = {0}, du = 0, work = 0;
-    PairBody me = body_of(s, i);
+    PairBody me = passes_body(s, i);
     for (long j = 0; j < s->n; j++) {
       if (j == i) continue;
-      PairBody other = body_of(s, j);
-      PairForce f = pair_force(&me, &other, sim->par.kernel, 0, sim->solid, 0, &run);
-      const double x = me.x - other.x, y = me.y - other.y, z = me.z - other.z;
-      const double r = sqrt(x * x + y * y + z * z), h = .5 * (me.h + other.h);
+      PairBody other = passes_body(s, j);
+      const double *xi = &s->x[3 * i], *xj = &s->x[3 * j];
+      PairVector d = {xi[0] - xj[0], xi[1] - xj[1], xi[2] - xj[2]};
+      PairForce f = pair_force(d, &me, &other, sim->par.kernel, 0, sim->solid, 0, &run);
+      const double r = sqrt(pair_dot(d, d)), h = .5 * (me.h + other.h), w = 1 / me.m;
       const double g =
           sim->par.G * other.m / pow(fmax(r, h), 3) * gravity_soft_force(fmin(r / h, 1));
-      a[0] += f.ax - g * x, a[1] += f.ay - g * y, a[2] += f.az - g * z;
-      du += f.du, work += fabs(f.du);
+      a[0] += w * f.fx - g * d.x, a[1] += w * f.fy - g * d.y, a[2] += w * f.fz - g * d.z;
+      du += w * f.work, work += fabs(w * f.work);
     }
     if (fabs(s->du[i] - du) > 1e-12 * work) err_die("wrong heating of %ld", i);
     for (int d = 0; d < 3; d++) worst = fmax(worst, fabs(s->acc[3 * i + d] - a[d]) / mean);

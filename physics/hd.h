@@ -17,4 +17,11 @@
 #define RESTRICT restrict
 #endif
 
+/* The type of pair arithmetic (kernel.h, viscosity.h, pair.h): double, unless the including file
+ * says otherwise. Literals there are exact as floats or cast, so that nothing widens by itself. */
+#ifndef REAL
+#define REAL double
+#endif
+typedef REAL real;
+
 #endif

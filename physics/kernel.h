@@ -39,104 +39,108 @@ typedef enum {
 #define KERNEL_WORDS                    (&KERNELS(KERNEL_WORD)[1])
 
 /* (x)_+^n, the truncated powers. Not fmax: its rules for NaN keep gcc from vectorising. */
-HD double kernel_max(double a, double b) { return a > b ? a : b; }
-HD double kernel_plus(double x) { return kernel_max(x, 0); }
-HD double kernel_plus2(double x) { return kernel_plus(x) * kernel_plus(x); }
-HD double kernel_plus3(double x) { return kernel_plus2(x) * kernel_plus(x); }
-HD double kernel_plus4(double x) { return kernel_plus2(x) * kernel_plus2(x); }
-HD double kernel_plus5(double x) { return kernel_plus4(x) * kernel_plus(x); }
+HD real kernel_max(real a, real b) { return a > b ? a : b; }
+HD real kernel_plus(real x) { return kernel_max(x, 0); }
+HD real kernel_plus2(real x) { return kernel_plus(x) * kernel_plus(x); }
+HD real kernel_plus3(real x) { return kernel_plus2(x) * kernel_plus(x); }
+HD real kernel_plus4(real x) { return kernel_plus2(x) * kernel_plus2(x); }
+HD real kernel_plus5(real x) { return kernel_plus4(x) * kernel_plus(x); }
 
 /* Splines M4, M5, M6 in units of their support. Near q = 0 the truncated powers of dw/dq cancel to
  * a polynomial divisible by q. */
-HD double kernel_cubic_spline(int dimension, double q)
+HD real kernel_cubic_spline(int dimension, real q)
 {
   (void)dimension;
-  return 2 * kernel_plus3(1 - q) - 8 * kernel_plus3(0.5 - q);
+  return 2 * kernel_plus3(1 - q) - 8 * kernel_plus3(0.5f - q);
 }
 
-HD double kernel_cubic_spline_dwq(int dimension, double q)
+HD real kernel_cubic_spline_dwq(int dimension, real q)
 {
   (void)dimension;
-  return q < 0.5 ? 18 * q - 12 : -6 * kernel_plus2(1 - q) / kernel_max(q, 0.5);
+  return q < 0.5f ? 18 * q - 12 : -6 * kernel_plus2(1 - q) / kernel_max(q, 0.5f);
 }
 
-HD double kernel_quartic_spline(int dimension, double q)
+HD real kernel_quartic_spline(int dimension, real q)
 {
   (void)dimension;
-  return kernel_plus4(1 - q) - 5 * kernel_plus4(0.6 - q) + 10 * kernel_plus4(0.2 - q);
+  return kernel_plus4(1 - q) - 5 * kernel_plus4((real)0.6 - q) + 10 * kernel_plus4((real)0.2 - q);
 }
 
-HD double kernel_quartic_spline_dwq(int dimension, double q)
+HD real kernel_quartic_spline_dwq(int dimension, real q)
 {
-  double outer = -4 * (kernel_plus3(1 - q) - 5 * kernel_plus3(0.6 - q)) / kernel_max(q, 0.2);
+  real outer =
+      -4 * (kernel_plus3(1 - q) - 5 * kernel_plus3((real)0.6 - q)) / kernel_max(q, (real)0.2);
   (void)dimension;
-  return q < 0.2 ? 24 * q * q - 4.8 : outer;
+  return q < (real)0.2 ? 24 * q * q - (real)4.8 : outer;
 }
 
-HD double kernel_quintic_spline(int dimension, double q)
+HD real kernel_quintic_spline(int dimension, real q)
 {
   (void)dimension;
-  return kernel_plus5(1 - q) - 6 * kernel_plus5(2. / 3 - q) + 15 * kernel_plus5(1. / 3 - q);
+  return kernel_plus5(1 - q) - 6 * kernel_plus5((real)(2. / 3) - q) +
+         15 * kernel_plus5((real)(1. / 3) - q);
 }
 
-HD double kernel_quintic_spline_dwq(int dimension, double q)
+HD real kernel_quintic_spline_dwq(int dimension, real q)
 {
-  double outer = -5 * (kernel_plus4(1 - q) - 6 * kernel_plus4(2. / 3 - q)) / kernel_max(q, 1. / 3);
+  real outer = -5 * (kernel_plus4(1 - q) - 6 * kernel_plus4((real)(2. / 3) - q)) /
+               kernel_max(q, (real)(1. / 3));
   (void)dimension;
-  return q < 1. / 3 ? (40 - 50 * q) * q * q - 40. / 9 : outer;
+  return q < (real)(1. / 3) ? (40 - 50 * q) * q * q - (real)(40. / 9) : outer;
 }
 
 /* Wendland functions: one polynomial for 1D, another for 2D and 3D. */
-HD double kernel_wendland_c2(int dimension, double q)
+HD real kernel_wendland_c2(int dimension, real q)
 {
   return dimension == 1 ? kernel_plus3(1 - q) * (1 + 3 * q) : kernel_plus4(1 - q) * (1 + 4 * q);
 }
 
-HD double kernel_wendland_c2_dwq(int dimension, double q)
+HD real kernel_wendland_c2_dwq(int dimension, real q)
 {
   return dimension == 1 ? -12 * kernel_plus2(1 - q) : -20 * kernel_plus3(1 - q);
 }
 
-HD double kernel_wendland_c4(int dimension, double q)
+HD real kernel_wendland_c4(int dimension, real q)
 {
-  return dimension == 1 ? kernel_plus5(1 - q) * (1 + q * (5 + 8 * q))
-                        : kernel_plus3(1 - q) * kernel_plus3(1 - q) * (1 + q * (6 + 35. / 3 * q));
+  return dimension == 1
+             ? kernel_plus5(1 - q) * (1 + q * (5 + 8 * q))
+             : kernel_plus3(1 - q) * kernel_plus3(1 - q) * (1 + q * (6 + (real)(35. / 3) * q));
 }
 
-HD double kernel_wendland_c4_dwq(int dimension, double q)
+HD real kernel_wendland_c4_dwq(int dimension, real q)
 {
   return dimension == 1 ? -14 * kernel_plus4(1 - q) * (1 + 4 * q)
-                        : -56. / 3 * kernel_plus5(1 - q) * (1 + 5 * q);
+                        : (real)(-56. / 3) * kernel_plus5(1 - q) * (1 + 5 * q);
 }
 
-HD double kernel_wendland_c6(int dimension, double q)
+HD real kernel_wendland_c6(int dimension, real q)
 {
   return dimension == 1
              ? kernel_plus5(1 - q) * kernel_plus2(1 - q) * (1 + q * (7 + q * (19 + 21 * q)))
              : kernel_plus4(1 - q) * kernel_plus4(1 - q) * (1 + q * (8 + q * (25 + 32 * q)));
 }
 
-HD double kernel_wendland_c6_dwq(int dimension, double q)
+HD real kernel_wendland_c6_dwq(int dimension, real q)
 {
   return dimension == 1 ? -6 * kernel_plus5(1 - q) * kernel_plus(1 - q) * (3 + q * (18 + 35 * q))
                         : -22 * kernel_plus5(1 - q) * kernel_plus2(1 - q) * (1 + q * (7 + 16 * q));
 }
 
 /* Spiky: slope -3 at q = 0, so dwq diverges; below q = 1e-10 grad W goes linearly to zero. */
-HD double kernel_spiky(int dimension, double q)
+HD real kernel_spiky(int dimension, real q)
 {
   (void)dimension;
   return kernel_plus3(1 - q);
 }
 
-HD double kernel_spiky_dwq(int dimension, double q)
+HD real kernel_spiky_dwq(int dimension, real q)
 {
   (void)dimension;
-  return -3 * kernel_plus2(1 - q) / kernel_max(q, 1e-10);
+  return -3 * kernel_plus2(1 - q) / kernel_max(q, (real)1e-10);
 }
 
 /* kernel_w: w(q), without sigma/h^D. kern is a Kernel, dimension 1, 2 or 3, q >= 0. */
-HD double kernel_w(int kern, int dimension, double q)
+HD real kernel_w(int kern, int dimension, real q)
 {
   switch (kern) {
 #define KERNEL_CASE(CAPITAL, NAME, ...)                                                            \
@@ -148,7 +152,7 @@ HD double kernel_w(int kern, int dimension, double q)
 }
 
 /* kernel_dwq: (dw/dq)/q <= 0. */
-HD double kernel_dwq(int kern, int dimension, double q)
+HD real kernel_dwq(int kern, int dimension, real q)
 {
   switch (kern) {
 #define KERNEL_CASE(CAPITAL, NAME, ...)                                                            \
@@ -160,10 +164,7 @@ HD double kernel_dwq(int kern, int dimension, double q)
 }
 
 /* kernel_dw: dw/dq <= 0. */
-HD double kernel_dw(int kern, int dimension, double q)
-{
-  return kernel_dwq(kern, dimension, q) * q;
-}
+HD real kernel_dw(int kern, int dimension, real q) { return kernel_dwq(kern, dimension, q) * q; }
 
 /* kernel_sigma: the norm, such that W integrates to 1 over the line, the plane, space. */
 HD double kernel_sigma(int kern, int dimension)

@@ -36,41 +36,47 @@ HD double tensor_dot(Sym s, Sym t)
   return s.xx * t.xx + s.yy * t.yy + s.zz * t.zz + 2 * (s.xy * t.xy + s.xz * t.xz + s.yz * t.yz);
 }
 
+/* tensor_det: the determinant. */
+HD double tensor_det(Sym s)
+{
+  return s.xx * (s.yy * s.zz - s.yz * s.yz) - s.xy * (s.xy * s.zz - s.yz * s.xz) +
+         s.xz * (s.xy * s.yz - s.yy * s.xz);
+}
+
 /* tensor_largest: the largest eigenvalue, in closed form (Smith 1961, Comm. ACM 4, 168); to 1e-7 of
  * the norm where the two largest coincide, to rounding elsewhere. */
 HD double tensor_largest(Sym s)
 {
-  double q = (s.xx + s.yy + s.zz) / 3, p, c, arg;
+  double q = (s.xx + s.yy + s.zz) / 3, p, arg;
   Sym d = {s.xx - q, s.xy, s.xz, s.yy - q, s.yz, s.zz - q};
   double j2 = tensor_j2(d);
   if (j2 <= 0) return q;
   p = sqrt(j2 / 3);
-  c = d.xx * (d.yy * d.zz - d.yz * d.yz) - d.xy * (d.xy * d.zz - d.yz * d.xz) +
-      d.xz * (d.xy * d.yz - d.yy * d.xz);
-  arg = c / (2 * p * p * p);
+  arg = tensor_det(d) / (2 * p * p * p);
   arg = arg < -1 ? -1 : arg > 1 ? 1 : arg;
   return q + 2 * p * cos(acos(arg) / 3);
 }
 
-/* tensor_invert: c = inverse of m by cofactors. Returns the determinant; when it is 0, c is left
- * alone. */
-HD double tensor_invert(const double m[9], double c[9])
+/* tensor_invert: the inverse by cofactors; det != 0 as tensor_det has it. */
+HD Sym tensor_invert(Sym s, double det)
 {
-  double a = m[4] * m[8] - m[5] * m[7];
-  double b = m[5] * m[6] - m[3] * m[8];
-  double d = m[3] * m[7] - m[4] * m[6];
-  double det = m[0] * a + m[1] * b + m[2] * d;
-  if (det == 0) return 0;
-  c[0] = a / det;
-  c[1] = (m[2] * m[7] - m[1] * m[8]) / det;
-  c[2] = (m[1] * m[5] - m[2] * m[4]) / det;
-  c[3] = b / det;
-  c[4] = (m[0] * m[8] - m[2] * m[6]) / det;
-  c[5] = (m[2] * m[3] - m[0] * m[5]) / det;
-  c[6] = d / det;
-  c[7] = (m[1] * m[6] - m[0] * m[7]) / det;
-  c[8] = (m[0] * m[4] - m[1] * m[3]) / det;
-  return det;
+  Sym c = {s.yy * s.zz - s.yz * s.yz, s.xz * s.yz - s.xy * s.zz, s.xy * s.yz - s.xz * s.yy,
+           s.xx * s.zz - s.xz * s.xz, s.xy * s.xz - s.xx * s.yz, s.xx * s.yy - s.xy * s.xy};
+  return tensor_scale(c, 1 / det);
+}
+
+/* tensor_product: t = a b, not symmetric; row-major. */
+HD void tensor_product(Sym a, Sym b, double t[9])
+{
+  t[0] = a.xx * b.xx + a.xy * b.xy + a.xz * b.xz;
+  t[1] = a.xx * b.xy + a.xy * b.yy + a.xz * b.yz;
+  t[2] = a.xx * b.xz + a.xy * b.yz + a.xz * b.zz;
+  t[3] = a.xy * b.xx + a.yy * b.xy + a.yz * b.xz;
+  t[4] = a.xy * b.xy + a.yy * b.yy + a.yz * b.yz;
+  t[5] = a.xy * b.xz + a.yy * b.yz + a.yz * b.zz;
+  t[6] = a.xz * b.xx + a.yz * b.xy + a.zz * b.xz;
+  t[7] = a.xz * b.xy + a.yz * b.yy + a.zz * b.yz;
+  t[8] = a.xz * b.xz + a.yz * b.yz + a.zz * b.zz;
 }
 
 #endif

@@ -11,13 +11,13 @@
 
 /* viscosity_nu: [m/s], 0 for receding pairs. vr = v_ij . r_ij [m^2/s], r2 = r_ij^2 [m^2], h the
  * pair's support radius [m]. */
-HD double viscosity_nu(double vr, double r2, double h)
+HD real viscosity_nu(real vr, real r2, real h)
 {
-  return vr < 0 ? h * vr / (r2 + 0.01 * h * h) : 0;
+  return vr < 0 ? h * vr / (r2 + (real)0.01 * h * h) : 0;
 }
 
 /* viscosity_pi: [m^5/kg/s^2] for the pair's mean sound speed c and mean density rho; >= 0. */
-HD double viscosity_pi(double nu, double c, double rho, double alpha, double beta)
+HD real viscosity_pi(real nu, real c, real rho, real alpha, real beta)
 {
   return (beta * nu - alpha * c) * nu / rho;
 }

@@ -55,9 +55,9 @@ struct backend {
   int (*search)(Sim *sim, Err *err);
   /* pass: one of passes.h over all particles. */
   void (*pass)(Sim *sim, int pass, const Step *step);
-  /* gradient: loop A at y with v, ha and volumes m/rhoa: divv and (solids) g. density: kernel
+  /* gradient: loop A at y with v, ha and volumes m/rhoa: divv and (solids) g, cm. density: kernel
    * sums at x: rho, delta, and rhoa, the mean of rho before and after. force: loop B at x with
-   * vp: acc, du, dq, signal, nngb. gravity: adds to acc, sets phi. */
+   * vp: acc, du, signal, nngb. gravity: adds to acc, sets phi. */
   void (*gradient)(Sim *sim);
   void (*density)(Sim *sim);
   void (*force)(Sim *sim);

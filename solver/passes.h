@@ -177,15 +177,31 @@ HD void passes_damage(const State *s, long i, double dt)
   s->damage[i] = damage_grow(s->damage[i], active, s->nact[i], s->nflaw[i], cg, s->h[i], dt);
 }
 
-/* passes_pack: sigma/rho^2 for the force loop. */
-HD void passes_pack(const State *s, long i, int solid)
+/* passes_pack: sigma/rho^2 for the force loop, the deviatoric part times C, the inverse moment
+ * matrix, turned from loop A's positions by the spin over dt to those of the force loop. As C also
+ * corrects the gradient that drives S, the two are adjoint; and as sum V_j r W' C = 1, stress
+ * exerts no torque where the density is even (Bonet & Lok 1999, CMAME 180, 97). */
+HD void passes_pack(const State *s, long i, int solid, double dt)
 {
-  double w = 1 / (s->rho[i] * s->rho[i]), left = 1 - s->damage[i], p = s->p[i];
-  Sym d = passes_stress(&s->s[6 * i]);
+  double w = 1 / (s->rho[i] * s->rho[i]), left = 1 - s->damage[i], p = s->p[i], *t = &s->t[9 * i];
   double push = (p < 0 ? left * p : p) * w;
-  d = tensor_scale(d, solid ? left * w : 0);
-  d.xx -= push, d.yy -= push, d.zz -= push;
-  passes_keep_stress(&s->t[6 * i], d);
+  for (int d = 0; d < 9; d++) t[d] = 0;
+  if (solid) {
+    Sym c = passes_rotate(passes_stress(&s->cm[6 * i]), &s->g[9 * i], dt);
+    tensor_product(tensor_scale(passes_stress(&s->s[6 * i]), left * w), c, t);
+  }
+  t[0] -= push, t[4] -= push, t[8] -= push;
+}
+
+/* passes_body: the record of i for the force loop. */
+HD PairBody passes_body(const State *s, long i)
+{
+  const double *v = &s->vp[3 * i], *t = &s->t[9 * i];
+  PairBody b = {(real)v[0],          (real)v[1],      (real)v[2],     (real)s->h[i],  (real)s->m[i],
+                (real)(1 / s->m[i]), (real)s->rho[i], (real)s->cs[i], (real)s->cl[i], (real)t[0],
+                (real)t[1],          (real)t[2],      (real)t[3],     (real)t[4],     (real)t[5],
+                (real)t[6],          (real)t[7],      (real)t[8]};
+  return b;
 }
 
 /* kick: v += a dt. */
@@ -269,7 +285,7 @@ HD void pass_advance(const State *s, const Step *k, long i)
   }
   if (mu > 0) passes_yield(s, i, 1);
   if (k->damage) passes_damage(s, i, k->dt);
-  passes_pack(s, i, k->strength);
+  passes_pack(s, i, mu > 0, 0.5 * k->dt);
 }
 
 /* passes_damp: -(v - v_frame)/tau, radial part only or all of it, in the co-rotating frame of the
@@ -328,7 +344,7 @@ HD void pass_local(const State *s, const Step *k, long i)
   if (mu > 0) passes_yield(s, i, 0);
   if (k->damage) passes_damage(s, i, 0);
   passes_keep_stress(&s->ds[6 * i], passes_jaumann(passes_stress(&s->s[6 * i]), &s->g[9 * i], mu));
-  passes_pack(s, i, k->strength);
+  passes_pack(s, i, mu > 0, 0);
 }
 
 /* passes_heating: du/dt as the run's energy mode has it: all work, compression alone (frozen
@@ -398,19 +414,26 @@ HD void pass_settle(const State *s, const Step *k, long i)
   if (k->strength && s->material[s->mat[i]].mu > 0) passes_yield(s, i, 1);
 }
 
-/* pass_correct: the corrected velocity gradient g = raw C, C the inverse of the moment matrix m
- * (001 eq. 42-44). Dimensions that are held count as 1. Particles with too few neighbours for an
- * inverse (det m < 1 % of a full sphere's) keep the raw gradient. */
-HD void pass_correct(const double raw[9], double m[9], int dimension, double g[9])
+/* pass_correct: divv, and the corrected velocity gradient g = raw C with C, the inverse of the
+ * moment matrix m (001 eq. 42-44), kept in cm. Dimensions that are held count as the mean of the
+ * others. Particles whose neighbours span no volume (det m < 1 % of the cube of the mean eigenvalue)
+ * keep the raw gradient. */
+HD void pass_correct(const State *s, long i, const double raw[9], Sym m)
 {
-  double c[9];
-  if (dimension < 3) m[8] = 1;
-  if (dimension < 2) m[4] = 1;
-  if (!(tensor_invert(m, c) > 0.01))
-    for (int d = 0; d < 9; d++) c[d] = d % 4 == 0;
-  for (int a = 0; a < 3; a++)
-    for (int b = 0; b < 3; b++)
-      g[3 * a + b] = raw[3 * a] * c[b] + raw[3 * a + 1] * c[3 + b] + raw[3 * a + 2] * c[6 + b];
+  double *g = &s->g[9 * i], mean, det;
+  Sym c = {1, 0, 0, 1, 0, 1};
+  if (s->dimension == 1) m.yy = m.xx;
+  if (s->dimension < 3) m.zz = 0.5 * (m.xx + m.yy);
+  mean = (m.xx + m.yy + m.zz) / 3;
+  det = tensor_det(m);
+  if (det > 0.01 * mean * mean * mean) c = tensor_invert(m, det);
+  passes_keep_stress(&s->cm[6 * i], c);
+  s->divv[i] = raw[0] + raw[4] + raw[8];
+  for (int a = 0; a < 9; a += 3) {
+    g[a] = raw[a] * c.xx + raw[a + 1] * c.xy + raw[a + 2] * c.xz;
+    g[a + 1] = raw[a] * c.xy + raw[a + 1] * c.yy + raw[a + 2] * c.yz;
+    g[a + 2] = raw[a] * c.xz + raw[a + 1] * c.yz + raw[a + 2] * c.zz;
+  }
 }
 
 /* pass_limits: the step [s] that each criterion allows to particle i, dt[LIMITS] (001 eq. 54-57

@@ -22,11 +22,11 @@
 #define WORK_FIELDS(W) \
   W(double,  g,      9, "velocity gradient dv_a/dx_b, corrected [1/s]") \
   W(double,  du,     1, "energy rate of this evaluation [W/kg]") \
-  W(double,  dq,     1, "viscous part of du [W/kg]") \
   W(double,  acc,    3, "acceleration of this evaluation, gravity included [m/s^2]") \
   W(double,  ds,     6, "dS/dt, Jaumann rate included [Pa/s]") \
   W(double,  ue,     1, "energy at which the EOS was evaluated [J/kg]") \
-  W(double,  t,      6, "sigma/rho^2, damage included [Pa m^6/kg^2]") \
+  W(double,  cm,     6, "inverse moment matrix of loop A, what corrects the gradient") \
+  W(double,  t,      9, "sigma/rho^2, damage and correction included [Pa m^6/kg^2]") \
   W(double,  cl,     1, "longitudinal wave speed [m/s]")
 /* clang-format on */
 

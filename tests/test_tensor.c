@@ -103,28 +103,30 @@ static void inverse(void **state)
 {
   (void)state;
   for (int k = 0; k < 5000; k++) {
-    double m[9], c[9], det, worst = 0;
-    for (int i = 0; i < 9; i++) m[i] = uniform(-1, 1);
-    det = tensor_invert(m, c);
+    Sym m = {uniform(-1, 1), uniform(-1, 1), uniform(-1, 1),
+             uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};
+    double det = tensor_det(m), unit[9], worst = 0;
     if (fabs(det) < 0.05) continue;
-    for (int a = 0; a < 3; a++)
-      for (int b = 0; b < 3; b++) {
-        double sum = -(a == b);
-        for (int i = 0; i < 3; i++) sum += m[3 * a + i] * c[3 * i + b];
-        worst = fmax(worst, fabs(sum));
-      }
+    tensor_product(m, tensor_invert(m, det), unit);
+    for (int i = 0; i < 9; i++) worst = fmax(worst, fabs(unit[i] - (i % 4 == 0)));
     assert_true(worst < 1e-13);
   }
 }
 
-static void singular(void **state)
+/* The determinant is the product of the eigenvalues; a product of two tensors against indices. */
+static void products(void **state)
 {
-  double m[9] = {1, 2, 3, 2, 4, 6, 0, 0, 1}, c[9] = {7, 7, 7, 7, 7, 7, 7, 7, 7};
-  double diagonal[9] = {2, 0, 0, 0, 4, 0, 0, 0, 8};
+  Sym a = {1, 2, 3, 4, 5, 6}, b = {7, -8, 9, 10, -11, 12}, flat = {1, 2, 0, 4, 0, 1};
+  const double f[9] = {1, 2, 3, 2, 4, 5, 3, 5, 6}, g[9] = {7, -8, 9, -8, 10, -11, 9, -11, 12};
+  double t[9];
   (void)state;
-  assert_true(tensor_invert(m, c) == 0);
-  for (int k = 0; k < 9; k++) assert_true(c[k] == 7);
-  assert_true(tensor_invert(diagonal, c) == 64 && c[0] == 0.5 && c[4] == 0.25 && c[8] == 0.125);
+  tensor_product(a, b, t);
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++)
+      assert_true(t[3 * i + j] ==
+                  f[3 * i] * g[j] + f[3 * i + 1] * g[3 + j] + f[3 * i + 2] * g[6 + j]);
+  assert_true(tensor_det(flat) == 0);
+  assert_true(fabs(tensor_det(with_eigenvalues(2, -4, 8)) + 64) < 1e-12);
 }
 
 static void contractions(void **state)
@@ -143,26 +145,31 @@ static void linear_field(void **state)
 {
   (void)state;
   for (int trial = 0; trial < 50; trial++) {
-    double field[9], m[9] = {0}, raw[9] = {0}, c[9];
+    double field[9], raw[9] = {0}, det;
+    Sym m = {0, 0, 0, 0, 0, 0}, c;
     for (int k = 0; k < 9; k++) field[k] = uniform(-1, 1);
     for (int j = 0; j < 40; j++) {
       double x[3] = {uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)}; /* x_j - x_i, h = 1 */
       double q = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]), volume = uniform(0.5, 1.5);
       double slope =
           -volume * kernel_dwq(KERNEL_WENDLAND_C2, 3, q); /* grad_i W = -dwq (x_j - x_i) */
+      Sym square = {x[0] * x[0], x[0] * x[1], x[0] * x[2], x[1] * x[1], x[1] * x[2], x[2] * x[2]};
+      m = tensor_axpy(m, slope, square);
       for (int a = 0; a < 3; a++) {
         double v = field[3 * a] * x[0] + field[3 * a + 1] * x[1] + field[3 * a + 2] * x[2];
-        for (int b = 0; b < 3; b++)
-          m[3 * a + b] += slope * x[a] * x[b], raw[3 * a + b] += slope * v * x[b];
+        for (int b = 0; b < 3; b++) raw[3 * a + b] += slope * v * x[b];
       }
     }
-    assert_true(tensor_invert(m, c) > 0);
-    for (int a = 0; a < 3; a++)
-      for (int b = 0; b < 3; b++) {
-        double g = 0;
-        for (int k = 0; k < 3; k++) g += raw[3 * a + k] * c[3 * k + b];
-        assert_true(fabs(g - field[3 * a + b]) < 1e-12);
-      }
+    det = tensor_det(m);
+    assert_true(det > 0);
+    c = tensor_invert(m, det);
+    for (int a = 0; a < 9; a += 3) {
+      assert_true(fabs(raw[a] * c.xx + raw[a + 1] * c.xy + raw[a + 2] * c.xz - field[a]) < 1e-12);
+      assert_true(fabs(raw[a] * c.xy + raw[a + 1] * c.yy + raw[a + 2] * c.yz - field[a + 1]) <
+                  1e-12);
+      assert_true(fabs(raw[a] * c.xz + raw[a + 1] * c.yz + raw[a + 2] * c.zz - field[a + 2]) <
+                  1e-12);
+    }
   }
 }
 
@@ -171,7 +178,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(random_tensors), cmocka_unit_test(degenerate),
       cmocka_unit_test(uniaxial),       cmocka_unit_test(inverse),
-      cmocka_unit_test(singular),       cmocka_unit_test(contractions),
+      cmocka_unit_test(products),       cmocka_unit_test(contractions),
       cmocka_unit_test(linear_field),
   };
   int failed;

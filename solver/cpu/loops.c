@@ -24,22 +24,29 @@ static double *pack_reserve(Pack *p, long n, int columns)
   return p->column;
 }
 
-static PairFlow flow_of(const State *s, long i)
+/* What loop A reads of a particle, and loop B. */
+typedef struct {
+  double x, y, z, vx, vy, vz, h, volume;
+} Flow;
+typedef struct {
+  double x, y, z;
+  PairBody b;
+} Body;
+enum { FLOW = sizeof(Flow) / sizeof(double), BODY = sizeof(Body) / sizeof(double) };
+
+static Flow flow_of(const State *s, long i)
 {
-  PairFlow f = {s->y[3 * i],     s->y[3 * i + 1], s->y[3 * i + 2], s->v[3 * i],
-                s->v[3 * i + 1], s->v[3 * i + 2], s->ha[i],        s->m[i] / s->rhoa[i]};
+  const double *y = &s->y[3 * i], *v = &s->v[3 * i];
+  Flow f = {y[0], y[1], y[2], v[0], v[1], v[2], s->ha[i], s->m[i] / s->rhoa[i]};
   return f;
 }
 
-static PairBody body_of(const State *s, long i)
+static Body body_of(const State *s, long i)
 {
-  const double *x = &s->x[3 * i], *v = &s->vp[3 * i], *t = &s->t[6 * i];
-  PairBody b = {x[0],      x[1],     x[2],     v[0], v[1], v[2], s->h[i], s->m[i], 1 / s->m[i],
-                s->rho[i], s->cs[i], s->cl[i], t[0], t[1], t[2], t[3],    t[4],    t[5]};
+  const double *x = &s->x[3 * i];
+  Body b = {x[0], x[1], x[2], passes_body(s, i)};
   return b;
 }
-
-enum { FLOW = sizeof(PairFlow) / sizeof(double), BODY = sizeof(PairBody) / sizeof(double) };
 
 /* The records of all particles, once per loop. */
 static void records(Sim *sim, int body)
@@ -49,9 +56,9 @@ static void records(Sim *sim, int body)
 #pragma omp parallel for schedule(static)
   for (long i = 0; i < s->n; i++) {
     if (body)
-      ((PairBody *)c->record)[i] = body_of(s, i);
+      ((Body *)c->record)[i] = body_of(s, i);
     else
-      ((PairFlow *)c->record)[i] = flow_of(s, i);
+      ((Flow *)c->record)[i] = flow_of(s, i);
   }
 }
 
@@ -65,39 +72,33 @@ pack(const double *record, int columns, const uint32_t *list, long n, double *to
   }
 }
 
+/* Column c of a pack at k. */
+#define AT(C) p[(C)*room + k]
+
 static inline __attribute__((always_inline)) void gradient_of(const State *s, long i,
-                                                              const PairFlow *me, const double *p,
+                                                              const Flow *me, const double *p,
                                                               long room, long n, int kern, int line,
                                                               int solid, const PairRun *run)
 {
   double gxx = 0, gxy = 0, gxz = 0, gyx = 0, gyy = 0, gyz = 0, gzx = 0, gzy = 0, gzz = 0;
   double mxx = 0, mxy = 0, mxz = 0, myy = 0, myz = 0, mzz = 0;
-  PairFlow self = *me;
+  Flow self = *me;
 #pragma omp simd reduction(+ : gxx, gxy, gxz, gyx, gyy, gyz, gzx, gzy, gzz)                        \
     reduction(+ : mxx, mxy, mxz, myy, myz, mzz)
   for (long k = 0; k < n; k++) {
-    PairFlow j = {p[k],
-                  p[room + k],
-                  p[2 * room + k],
-                  p[3 * room + k],
-                  p[4 * room + k],
-                  p[5 * room + k],
-                  p[6 * room + k],
-                  p[7 * room + k]};
-    PairGradient o = pair_gradient(&self, &j, kern, line, solid, run);
+    PairVector r = {self.x - AT(0), self.y - AT(1), self.z - AT(2)};
+    PairVector v = {self.vx - AT(3), self.vy - AT(4), self.vz - AT(5)};
+    PairGradient o = pair_gradient(r, v, 0.5 * (self.h + AT(6)), AT(7), kern, line, solid, run);
     gxx += o.gxx, gxy += o.gxy, gxz += o.gxz, gyx += o.gyx, gyy += o.gyy, gyz += o.gyz,
         gzx += o.gzx, gzy += o.gzy, gzz += o.gzz;
     mxx += o.mxx, mxy += o.mxy, mxz += o.mxz, myy += o.myy, myz += o.myz, mzz += o.mzz;
   }
   if (!solid) {
     s->divv[i] = gxx;
-    return;
-  }
-  {
+  } else {
     double raw[9] = {gxx, gxy, gxz, gyx, gyy, gyz, gzx, gzy, gzz};
-    double m[9] = {mxx, mxy, mxz, mxy, myy, myz, mxz, myz, mzz};
-    s->divv[i] = gxx + gyy + gzz;
-    pass_correct(raw, m, s->dimension, &s->g[9 * i]);
+    Sym m = {mxx, mxy, mxz, myy, myz, mzz};
+    pass_correct(s, i, raw, m);
   }
 }
 
@@ -106,7 +107,7 @@ static inline __attribute__((always_inline)) void gradients(const Sim *sim, Pack
                                                             long to, int kern, int line, int solid)
 {
   const Cpu *c = sim->own;
-  const PairFlow *record = (const PairFlow *)c->record;
+  const Flow *record = (const Flow *)c->record;
   for (long i = from; i < to; i++) {
     long n = (long)(c->ngb.start[i + 1] - c->ngb.start[i]);
     double *p = pack_reserve(b, n, FLOW);
@@ -115,38 +116,25 @@ static inline __attribute__((always_inline)) void gradients(const Sim *sim, Pack
   }
 }
 
-static inline __attribute__((always_inline)) void
-force_of(const State *s, long i, const PairBody *me, const double *p, long room, long n, int kern,
-         int line, int solid, int miscible, const PairRun *run)
+static inline __attribute__((always_inline)) void force_of(const State *s, long i, const Body *me,
+                                                           const double *p, long room, long n,
+                                                           int kern, int line, int solid,
+                                                           int miscible, const PairRun *run)
 {
-  double ax = 0, ay = 0, az = 0, du = 0, dq = 0, near = 0, signal = 2 * me->signal;
-  PairBody self = *me;
-#pragma omp simd reduction(+ : ax, ay, az, du, dq, near) reduction(max : signal)
+  double fx = 0, fy = 0, fz = 0, work = 0, near = 0, signal = 2 * me->b.signal, w;
+  Body self = *me;
+#pragma omp simd reduction(+ : fx, fy, fz, work, near) reduction(max : signal)
   for (long k = 0; k < n; k++) {
-    PairBody j = {p[k],
-                  p[room + k],
-                  p[2 * room + k],
-                  p[3 * room + k],
-                  p[4 * room + k],
-                  p[5 * room + k],
-                  p[6 * room + k],
-                  p[7 * room + k],
-                  p[8 * room + k],
-                  p[9 * room + k],
-                  p[10 * room + k],
-                  p[11 * room + k],
-                  p[12 * room + k],
-                  p[13 * room + k],
-                  p[14 * room + k],
-                  p[15 * room + k],
-                  p[16 * room + k],
-                  p[17 * room + k]};
-    PairForce o = pair_force(&self, &j, kern, line, solid, miscible, run);
-    ax += o.ax, ay += o.ay, az += o.az, du += o.du, dq += o.dq, near += o.near;
+    PairVector r = {self.x - AT(0), self.y - AT(1), self.z - AT(2)};
+    PairBody j = {AT(3),  AT(4),  AT(5),  AT(6),  AT(7),  AT(8),  AT(9),  AT(10), AT(11),
+                  AT(12), AT(13), AT(14), AT(15), AT(16), AT(17), AT(18), AT(19), AT(20)};
+    PairForce o = pair_force(r, &self.b, &j, kern, line, solid, miscible, run);
+    fx += o.fx, fy += o.fy, fz += o.fz, work += o.work, near += o.near;
     signal = o.signal > signal ? o.signal : signal;
   }
-  s->acc[3 * i] = ax, s->acc[3 * i + 1] = ay, s->acc[3 * i + 2] = az;
-  s->du[i] = du, s->dq[i] = dq, s->signal[i] = signal, s->nngb[i] = (int32_t)near;
+  w = 1 / s->m[i];
+  s->acc[3 * i] = fx * w, s->acc[3 * i + 1] = fy * w, s->acc[3 * i + 2] = fz * w;
+  s->du[i] = work * w, s->signal[i] = signal, s->nngb[i] = (int32_t)near;
 }
 
 /* Loop B over a range. */
@@ -154,7 +142,7 @@ static inline __attribute__((always_inline)) void
 forces(const Sim *sim, Pack *b, long from, long to, int kern, int line, int solid, int miscible)
 {
   const Cpu *c = sim->own;
-  const PairBody *record = (const PairBody *)c->record;
+  const Body *record = (const Body *)c->record;
   for (long i = from; i < to; i++) {
     long n = (long)(c->ngb.start[i + 1] - c->ngb.start[i]);
     double *p = pack_reserve(b, n, BODY);

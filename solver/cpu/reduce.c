@@ -73,18 +73,22 @@ void cpu_limits(Sim *sim, const Step *step, Limits *out)
 }
 
 /* omega = I^-1 L about the body's own centre. */
-static void spin_of(const double inertia[9], const double l[3], double omega[3])
+static void spin_of(Sym inertia, const double l[3], double omega[3])
 {
-  double c[9];
+  double det = tensor_det(inertia);
   memset(omega, 0, 3 * sizeof *omega);
-  if (tensor_invert(inertia, c) == 0) return;
-  for (int a = 0; a < 3; a++)
-    omega[a] = c[3 * a] * l[0] + c[3 * a + 1] * l[1] + c[3 * a + 2] * l[2];
+  if (det == 0) return;
+  inertia = tensor_invert(inertia, det);
+  omega[0] = inertia.xx * l[0] + inertia.xy * l[1] + inertia.xz * l[2];
+  omega[1] = inertia.xy * l[0] + inertia.yy * l[1] + inertia.yz * l[2];
+  omega[2] = inertia.xz * l[0] + inertia.yz * l[1] + inertia.zz * l[2];
 }
 
 static void spins(const State *s, Step *step)
 {
-  double inertia[BODIES][9] = {{0}}, l[BODIES][3] = {{0}};
+  Sym inertia[BODIES];
+  double l[BODIES][3] = {{0}};
+  memset(inertia, 0, sizeof inertia);
   for (long i = 0; i < s->n; i++) {
     int b = s->body[i] >= 0 && s->body[i] < BODIES ? s->body[i] : 0;
     double r[3], v[3], r2 = 0;
@@ -95,8 +99,10 @@ static void spins(const State *s, Step *step)
     for (int d = 0; d < 3; d++) {
       int e = (d + 1) % 3, f = (d + 2) % 3;
       l[b][d] += s->m[i] * (r[e] * v[f] - r[f] * v[e]);
-      for (int k = 0; k < 3; k++) inertia[b][3 * d + k] += s->m[i] * ((d == k) * r2 - r[d] * r[k]);
     }
+    Sym part = {r2 - r[0] * r[0], -r[0] * r[1], -r[0] * r[2],
+                r2 - r[1] * r[1], -r[1] * r[2], r2 - r[2] * r[2]};
+    inertia[b] = tensor_axpy(inertia[b], s->m[i], part);
   }
   for (int b = 0; b < BODIES; b++) spin_of(inertia[b], l[b], step->omega[b]);
 }

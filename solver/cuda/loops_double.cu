@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The pair loops in double precision. */
+#include "loops.h"
+
+typedef struct __align__(16)
+{
+  double x, y, z, w;
+} Quad; /* double4 is deprecated in CUDA 13 and its heirs are missing in 12 */
+typedef struct {
+  Quad *at; /* w: h */
+  double *w;
+} Places;
+typedef PairVector Place;
+enum { PLACE_BYTES = sizeof(Quad) + sizeof(double) };
+
+static __device__ Quad quad(double x, double y, double z, double w)
+{
+  const Quad q = {x, y, z, w};
+  return q;
+}
+
+/* Two loads of 16 bytes. */
+static __device__ Quad quad_get(const Quad *q)
+{
+  const double2 a = __ldg((const double2 *)q), b = __ldg((const double2 *)q + 1);
+  return quad(a.x, a.y, b.x, b.y);
+}
+
+static __device__ void place_set(Places p, long i, double x, double y, double z, double h, double w)
+{
+  p.at[i] = quad(x, y, z, h);
+  p.w[i] = w;
+}
+
+static __device__ Place place_get(Places p, long i, double *h, double *w)
+{
+  const Quad a = quad_get(p.at + i);
+  const Place o = {a.x, a.y, a.z};
+  *h = a.w, *w = __ldg(p.w + i);
+  return o;
+}
+
+static __device__ PairVector place_between(Place a, Place b)
+{
+  const PairVector r = {a.x - b.x, a.y - b.y, a.z - b.z};
+  return r;
+}
+
+static int places_alloc(Sim *sim, Places *p, size_t n, Err *err)
+{
+  return cuda_alloc(sim, (void **)&p->at, n * sizeof(Quad), err) ||
+                 cuda_alloc(sim, (void **)&p->w, n * sizeof(double), err)
+             ? -1
+             : 0;
+}
+
+static void places_free(Places *p)
+{
+  cuda_free(p->at), cuda_free(p->w);
+  p->at = NULL, p->w = NULL;
+}
+
+#include "loops.cuh"
+
+const LoopsOf loops_double = {bytes, loops_open, loops_close, gradient, density, force};

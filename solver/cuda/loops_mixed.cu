@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The pair loops in single precision. A vector is kept as two floats a component, hi + lo: the
+ * difference of two is exact to 2^-48 of what they are, as if taken in double, and changes sign
+ * exactly with the pair. */
+#define REAL float
+#include "loops.h"
+
+typedef float4 Quad;
+typedef Points Places;
+typedef struct {
+  float x, y, z, lx, ly, lz;
+} Place;
+enum { PLACE_BYTES = 2 * sizeof(float4) };
+
+static __device__ float4 quad(double x, double y, double z, double w)
+{
+  return make_float4((float)x, (float)y, (float)z, (float)w);
+}
+
+static __device__ float4 quad_get(const float4 *q) { return __ldg(q); }
+
+static __device__ void place_set(Points p, long i, double x, double y, double z, float h, float w)
+{
+  const float hx = (float)x, hy = (float)y, hz = (float)z;
+  p.hi[i] = make_float4(hx, hy, hz, h);
+  p.lo[i] = make_float4((float)(x - hx), (float)(y - hy), (float)(z - hz), w);
+}
+
+static __device__ Place place_get(Points p, long i, float *h, float *w)
+{
+  const float4 a = __ldg(p.hi + i), b = __ldg(p.lo + i);
+  const Place o = {a.x, a.y, a.z, b.x, b.y, b.z};
+  *h = a.w, *w = b.w;
+  return o;
+}
+
+static __device__ PairVector place_between(Place a, Place b)
+{
+  const PairVector r = {(a.x - b.x) + (a.lx - b.lx), (a.y - b.y) + (a.ly - b.ly),
+                        (a.z - b.z) + (a.lz - b.lz)};
+  return r;
+}
+
+static int places_alloc(Sim *sim, Points *p, size_t n, Err *err)
+{
+  return cuda_alloc(sim, (void **)&p->hi, n * sizeof(float4), err) ||
+                 cuda_alloc(sim, (void **)&p->lo, n * sizeof(float4), err)
+             ? -1
+             : 0;
+}
+
+static void places_free(Points *p)
+{
+  cuda_free(p->hi), cuda_free(p->lo);
+  p->hi = p->lo = NULL;
+}
+
+#include "loops.cuh"
+
+const LoopsOf loops_mixed = {bytes, loops_open, loops_close, gradient, density, force};
