@@ -5,6 +5,7 @@
 VERSION = 0.1.0
 PREFIX = /usr/local
 CC = gcc
+CXX = g++
 OPT = -O3 -march=native
 WARN = -Wall -Wextra -Wpedantic -Wshadow
 CPPFLAGS =
@@ -28,14 +29,17 @@ hdf5 := $(firstword $(wildcard /usr/include/hdf5/serial))
 hdf5lib := $(firstword $(wildcard /usr/lib/*/hdf5/serial))
 cpp = -D_POSIX_C_SOURCE=200809L -DBRECCIA_VERSION='"$(VERSION)"' -I. $(hdf5:%=-isystem %) $(CPPFLAGS)
 cflags = -std=c11 $(OPT) $(WARN) $(MATH) -fopenmp $(CFLAGS)
+cxxflags = -std=c++17 $(filter-out -std=c11 -Wpedantic,$(cflags)) -Wno-unknown-pragmas -Itests/host
 libs = $(LDFLAGS) $(hdf5lib:%=-L%) -lhdf5 -lconfig -lgsl -lgslcblas -lpng -lz -lm
 
 tools := $(notdir $(patsubst %/,%,$(wildcard tools/*/)))
 programs := $(tools) $(if $(wildcard solver/main.c),solver)
-tests := $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))
+cu_tests := $(patsubst tests/%.cu,%,$(wildcard tests/test_*.cu))
+tests := $(patsubst tests/%.c,%,$(wildcard tests/test_*.c)) $(cu_tests)
 benches := $(patsubst bench/%.c,%,$(wildcard bench/*.c))
 lib_o := $(patsubst %.c,$B/%.o,$(wildcard lib/*.c))
 solver_o := $(patsubst %.c,$B/%.o,$(filter-out solver/main.c,$(wildcard solver/*.c solver/*/*.c)))
+host_o := $(patsubst %.cpp,$B/%.o,$(wildcard tests/host/*.cpp))
 objs = $(patsubst %.c,$B/%.o,$(wildcard $(1)/*.c))
 
 all: $(programs:%=$(BIN)/%) $(if $(asan),,$(benches:%=$B/bench/%))
@@ -48,11 +52,15 @@ $(programs:%=$(BIN)/%): $B/libsolver.a $B/libbreccia.a
 	$(CC) $(cflags) -o $@ $(filter %.o,$^) $(filter %.a,$^) $(libs)
 $B/tests/test_%: $B/tests/test_%.o $B/libsolver.a $B/libbreccia.a
 	$(CC) $(cflags) -o $@ $^ -lcmocka $(libs)
+# Tests of CUDA code run without a GPU: tests/host/ stands in for the toolkit.
+$(cu_tests:%=$B/tests/%): %: %.o $B/libhost.a $B/libsolver.a $B/libbreccia.a
+	$(CXX) $(cxxflags) -o $@ $^ -lcmocka $(libs)
 $B/bench/%: $B/bench/%.o $B/libsolver.a $B/libbreccia.a
 	$(CC) $(cflags) -o $@ $^ $(libs)
 $B/libbreccia.a: $(lib_o)
 $B/libsolver.a: $(solver_o)
-$B/libbreccia.a $B/libsolver.a:
+$B/libhost.a: $(host_o)
+$B/libbreccia.a $B/libsolver.a $B/libhost.a:
 	@mkdir -p $(@D)
 	@rm -f $@
 	ar rc $@ $^
@@ -62,6 +70,12 @@ $B/lib/gravity.o $B/lib/ngb.o: MATH += -ffp-contract=fast
 $B/%.o: %.c $B/flags
 	@mkdir -p $(@D)
 	$(CC) $(cpp) $(cflags) -MMD -MP -c -o $@ $<
+$B/tests/%.o: tests/%.cu $B/flags
+	@mkdir -p $(@D)
+	$(CXX) $(cpp) $(cxxflags) -MMD -MP -x c++ -c -o $@ $<
+$B/tests/%.o: tests/%.cpp $B/flags
+	@mkdir -p $(@D)
+	$(CXX) $(cpp) $(cxxflags) -MMD -MP -c -o $@ $<
 # Changed flags rebuild everything.
 $B/flags: FORCE
 	@mkdir -p $(@D)
