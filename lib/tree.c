@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Hilbert keys by Skilling (2004), AIP Conf. Proc. 707, 381, for a block of particles at a time, so
- * that the loops over the block are vectors. A node is a range of equal leading key digits; its
- * children follow from the first keys with another digit. Moments go up from the leaves. */
+/* Hilbert keys (hilbert.h) for a block of particles at a time, so that the loops over the block are
+ * vectors. A node is a range of equal leading key digits; its children follow from the first keys
+ * with another digit. Moments go up from the leaves. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,50 +21,28 @@ typedef struct {
   long i;
 } Item;
 
-static uint64_t spread(uint64_t v) /* puts two zeros between the 21 bits */
-{
-  v = (v | v << 32) & 0x1f00000000ffff;
-  v = (v | v << 16) & 0x1f0000ff0000ff;
-  v = (v | v << 8) & 0x100f00f00f00f00f;
-  v = (v | v << 4) & 0x10c30c30c30c30c3;
-  return (v | v << 2) & 0x1249249249249249;
-}
-
 static void hilbert_block(uint32_t c[3][BLOCK], int n, uint64_t *key)
 {
   for (uint32_t bit = 1u << (TREE_LEVELS - 1); bit > 1; bit >>= 1)
     for (int d = 0; d < 3; d++)
-      for (int k = 0; k < n; k++) {
-        uint32_t set = c[d][k] & bit ? bit - 1 : 0, t = (c[0][k] ^ c[d][k]) & (bit - 1) & ~set;
-        c[d][k] ^= t;
-        c[0][k] ^= (d ? t : 0) | set;
-      }
-  for (int k = 0; k < n; k++) {
-    uint32_t a = c[0][k], b = c[1][k] ^ a, g = c[2][k] ^ b, t = g;
-    for (int s = 1; s < 32; s *= 2) t ^= t >> s;
-    t >>= 1;
-    key[k] = spread(a ^ t) << 2 | spread(b ^ t) << 1 | spread(g ^ t);
-  }
+      for (int k = 0; k < n; k++) hilbert_turn(bit, d, &c[0][k], &c[d][k]);
+  for (int k = 0; k < n; k++) key[k] = hilbert_join(c[0][k], c[1][k], c[2][k]);
 }
 
 static void hilbert_keys(const Cube *cube, long n, const double *x, uint64_t *key)
 {
-  const double cells = 1 << TREE_LEVELS, scale = cells / cube->edge;
+  const double scale = (1 << TREE_LEVELS) / cube->edge;
 #pragma omp parallel for schedule(static)
   for (long b = 0; b < n; b += BLOCK) {
     uint32_t c[3][BLOCK];
     int m = (int)(n - b < BLOCK ? n - b : BLOCK);
     for (int d = 0; d < 3; d++)
-      for (int k = 0; k < m; k++) {
-        double s = (x[3 * (b + k) + d] - cube->lo[d]) * scale;
-        c[d][k] = (uint32_t)(int32_t)(s < cells - 1 ? s : cells - 1);
-      }
+      for (int k = 0; k < m; k++) c[d][k] = hilbert_cell(x[3 * (b + k) + d], cube->lo[d], scale);
     hilbert_block(c, m, key + b);
   }
 }
 
-/* The smallest cube from the lowest corner on that holds all, or one half as long again whose
- * corner is drawn by shift; -1 - k when the k-th coordinate is bad. */
+/* The root cube, drawn by shift unless that is 0; -1 - k when the k-th coordinate is bad. */
 static long find_cube(long n, const double *x, uint64_t shift, Cube *cube)
 {
   double x0 = FAR, y0 = FAR, z0 = FAR, x1 = -FAR, y1 = -FAR, z1 = -FAR;
@@ -78,11 +56,10 @@ static long find_cube(long n, const double *x, uint64_t shift, Cube *cube)
     for (int d = 0; d < 3; d++)
       if (!(fabs(p[d]) < FAR) && 3 * i + d < bad) bad = 3 * i + d;
   }
-  *cube = (Cube){{x0, y0, z0}, fmax(fmax(x1 - x0, y1 - y0), z1 - z0)};
-  if (cube->edge < 1e-290) cube->edge = 1; /* coincident as far as arithmetic goes */
-  for (int d = 0; d < 3 && shift; d++)
-    cube->lo[d] -= 0.5 * cube->edge * rng_uniform(shift, 0, (uint32_t)d);
-  if (shift) cube->edge *= 1.5;
+  const double lo[3] = {x0, y0, z0}, hi[3] = {x1, y1, z1};
+  double draw[3];
+  for (uint32_t d = 0; d < 3; d++) draw[d] = rng_uniform(shift, 0, d);
+  hilbert_cube(lo, hi, shift ? draw : NULL, cube->lo, &cube->edge);
   return bad < 3 * n ? -1 - bad : 0;
 }
 

@@ -13,8 +13,9 @@
 
 #include <stdint.h>
 #include "err.h"
+#include "hilbert.h"
 
-enum { TREE_BUCKET = 16, TREE_GROUP = 64, TREE_LEVELS = 21 };
+enum { TREE_BUCKET = 16, TREE_GROUP = 64, TREE_LEVELS = HILBERT_LEVELS };
 
 typedef struct {
   double lo[3], hi[3];  /* tight box of the particles [m] */
