@@ -65,6 +65,19 @@ HD Sym tensor_invert(Sym s, double det)
   return tensor_scale(c, 1 / det);
 }
 
+/* tensor_solve: x with s x = b; 0 where s is as good as singular (det below 1e-12 of the cube of the
+ * mean eigenvalue). */
+HD void tensor_solve(Sym s, const double b[3], double x[3])
+{
+  double mean = (s.xx + s.yy + s.zz) / 3, det = tensor_det(s);
+  x[0] = x[1] = x[2] = 0;
+  if (!(fabs(det) > 1e-12 * fabs(mean * mean * mean))) return;
+  s = tensor_invert(s, det);
+  x[0] = s.xx * b[0] + s.xy * b[1] + s.xz * b[2];
+  x[1] = s.xy * b[0] + s.yy * b[1] + s.yz * b[2];
+  x[2] = s.xz * b[0] + s.yz * b[1] + s.zz * b[2];
+}
+
 /* tensor_product: t = a b, not symmetric; row-major. */
 HD void tensor_product(Sym a, Sym b, double t[9])
 {

@@ -209,11 +209,40 @@ static void bar(void **state)
   assert_true(intact < 0 && broken > 1e-3);
 }
 
+/* The tree's forces have neither resultant nor torque, one body or two far apart (with 1 of them
+ * and theta 1 their errors are 1e-4 of the forces). */
+static void recoil(void **state)
+{
+  (void)state;
+  for (int apart = 0; apart < 2; apart++) {
+    Parts *p = drops(3, 0, 1);
+    Param par = lab_param("gravity.G=1", "gravity.method=tree", "gravity.theta=1", NULL);
+    double f[3] = {0}, t[3] = {0}, force = 0, torque = 0;
+    Sim sim;
+    for (long i = 0; i < p->n; i++)
+      p->x[3 * i] += apart * (p->body[i] ? 30 : -20), p->x[3 * i + 1] += apart * 7.;
+    lab_open(&sim, &par, p);
+    lab_store(&sim, p);
+    for (long i = 0; i < p->n; i++) {
+      const double *x = &p->x[3 * i], *a = &p->a[3 * i], m = p->m[i];
+      for (int d = 0; d < 3; d++) {
+        int e = (d + 1) % 3, g = (d + 2) % 3;
+        f[d] += m * a[d], t[d] += m * (x[e] * a[g] - x[g] * a[e]);
+        force += m * fabs(a[d]), torque += m * (fabs(x[e] * a[g]) + fabs(x[g] * a[e]));
+      }
+    }
+    for (int d = 0; d < 3; d++)
+      assert_true(fabs(f[d]) < 1e-14 * force && fabs(t[d]) < 1e-14 * torque);
+    sim_close(&sim);
+    part_free(p);
+  }
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(collision), cmocka_unit_test(frames),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(collision),   cmocka_unit_test(frames),
                                      cmocka_unit_test(oscillation), cmocka_unit_test(planar),
-                                     cmocka_unit_test(bar)};
+                                     cmocka_unit_test(recoil),      cmocka_unit_test(bar)};
   omp_set_num_threads(1);
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
