@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include "hilbert.h"
 #include "rng.h"
 #include "tree.h"
 

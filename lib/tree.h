@@ -13,9 +13,8 @@
 
 #include <stdint.h>
 #include "err.h"
-#include "hilbert.h"
 
-enum { TREE_BUCKET = 16, TREE_GROUP = 64, TREE_LEVELS = HILBERT_LEVELS };
+enum { TREE_BUCKET = 16, TREE_GROUP = 64, TREE_LEVELS = 21 };
 
 typedef struct {
   double lo[3], hi[3];  /* tight box of the particles [m] */
