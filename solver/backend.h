@@ -46,11 +46,17 @@ typedef struct Sim Sim;
 
 struct backend {
   const char *name;
+  /* cards: how many devices there are for it; -1: this build lacks the backend. */
+  int (*cards)(void);
   /* open: takes the particles over (they keep their row order in every file). close: frees all. */
   int (*open)(Sim *sim, const Parts *parts, Err *err);
   void (*close)(Sim *sim);
-  /* store: the present state into parts (same n and row order as at open). */
+  /* store: the present state, on its way into parts (same n and row order as at open). fetch: the
+   * rest of that way; another thread may call it while the run goes on, before the next store.
+   * copy: bytes of an array of the state to the host, or back. */
   int (*store)(Sim *sim, Parts *parts, Err *err);
+  int (*fetch)(Sim *sim, Parts *parts, Err *err);
+  int (*copy)(Sim *sim, void *to, const void *from, size_t bytes, Err *err);
   /* search: orders the particles, builds the tree at x and the neighbour lists for x and for y. */
   int (*search)(Sim *sim, Err *err);
   /* pass: one of passes.h over all particles. */
@@ -62,18 +68,16 @@ struct backend {
   void (*density)(Sim *sim);
   void (*force)(Sim *sim);
   int (*gravity)(Sim *sim, Err *err);
-  /* limits, sums: reductions. bodies: mass, centre, velocity and spin of each body id below BODIES,
-   * for damping. */
-  void (*limits)(Sim *sim, const Step *step, Limits *out);
-  void (*sums)(Sim *sim, Sums *out);
-  void (*bodies)(Sim *sim, Step *step);
-  /* look: the state of one particle as text, for error messages; max_error: largest error of
-   * rk2-adaptive over its tolerance. */
-  void (*look)(Sim *sim, int64_t id, char *text, int size);
-  double (*error)(Sim *sim, const Step *step);
+  /* Reductions (reduce.h). bodies: centre, velocity and spin of each body id below BODIES, for
+   * damping. error: the largest of rk2-adaptive for a tolerance of 1. Failures of steps that return
+   * nothing are reported here, by search, gravity or store. */
+  int (*limits)(Sim *sim, const Step *step, Limits *out, Err *err);
+  int (*sums)(Sim *sim, Sums *out, Err *err);
+  int (*bodies)(Sim *sim, Step *step, Err *err);
+  int (*error)(Sim *sim, const Step *step, double *worst, Err *err);
 };
 
-extern const struct backend backend_cpu;
+extern const struct backend backend_cpu, backend_cuda;
 
 struct Sim {
   const struct backend *b;
@@ -84,13 +88,23 @@ struct Sim {
   int miscible; /* the number-density form */
   State s;
   void *own;       /* the backend's */
+  int card;        /* which of the backend's devices */
+  int profile;     /* the timers are wanted */
+  char about[256]; /* the machine, as the backend describes it */
   double time, dt; /* s; dt: the next step as the criteria allow */
   long step;
   int slots; /* saved states that the integrator needs */
   BackendTimer timer[TIMERS];
 };
 
-/* backend_begin, backend_end: bracket a pass for --profile. */
+/* backend_find: what "auto", "cpu", "cuda" or "cuda:K" means here; auto is a card when there is
+ * one. NULL with a message. */
+const struct backend *backend_find(const char *device, int *card, Err *err);
+
+/* backend_look: the state of one particle as text, for error messages. */
+void backend_look(Sim *sim, int64_t id, char *text, size_t size);
+
+/* backend_begin, backend_end: bracket a pass by the wall clock, for --profile. */
 void backend_begin(Sim *sim, int timer);
 void backend_end(Sim *sim, int timer);
 

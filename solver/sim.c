@@ -44,14 +44,12 @@ static int open_common(Sim *sim, const Param *par, const Parts *p, const char *d
 {
   memset(sim, 0, sizeof *sim);
   if (part_need(p, SIM_FIELDS, "input", err) || part_check(p, "input", err)) return -1;
-  if (strcmp(device, "auto") != 0 && strcmp(device, "cpu") != 0)
-    return err_set(err, "cannot use device '%s': this build has only the cpu backend", device);
+  if (!(sim->b = backend_find(device, &sim->card, err))) return -1;
   for (long i = 0; i < p->n && par->damping > 0; i++)
     if (p->body[i] < 0 || p->body[i] >= BODIES)
       return err_set(err, "particle %lld is of body %d: damping knows bodies 0 to %d",
                      (long long)p->id[i], (int)p->body[i], BODIES - 1);
   sim->par = *par;
-  sim->b = &backend_cpu;
   sim->time = p->time;
   sim->materials = p->materials;
   sim->slots = integrator_of(par->integrator)->slots;
@@ -106,14 +104,18 @@ const char *sim_limit_name(int limit)
   return limit >= 0 && limit < LIMITS + 3 ? names[limit] : "?";
 }
 
+/* What a file of the solver holds. */
+static const char stored[] = "id x v m rho u h mat body p cs s damage nact phi pmax strain nngb a "
+                             "dudt dqdt divv delta signal dcrack";
+
 /* The criteria of the present state, which must make sense. */
 static int limits_of(Sim *sim, Limits *l, Err *err)
 {
   Step k = sim_step(sim, 0);
   char look[512];
-  sim->b->limits(sim, &k, l);
+  if (sim->b->limits(sim, &k, l, err)) return -1;
   if (l->bad < 0) return 0;
-  sim->b->look(sim, l->bad, look, sizeof look);
+  backend_look(sim, l->bad, look, sizeof look);
   return err_set(err, "the state broke down at t = %.9g s, step %ld: %s: %s", sim->time, sim->step,
                  bad_names[l->bad_reason], look);
 }
@@ -140,7 +142,7 @@ int sim_advance(Sim *sim, double until, SimStep *done, Err *err)
   if (sim->par.step_max > 0 && sim->par.step_max < done->dt)
     done->dt = sim->par.step_max, done->limit = LIMITS + 2, done->id = -1;
   if (!(done->dt > sim->par.step_min)) {
-    if (done->id >= 0) sim->b->look(sim, done->id, look, sizeof look);
+    if (done->id >= 0) backend_look(sim, done->id, look, sizeof look);
     return err_set(err, "the time step collapsed to %.3g s (%s) at t = %.9g s: %s", done->dt,
                    sim_limit_name(done->limit), sim->time, look);
   }
@@ -157,13 +159,18 @@ int sim_advance(Sim *sim, double until, SimStep *done, Err *err)
   return 0;
 }
 
-int sim_store(Sim *sim, Parts *p, Err *err)
+int sim_send(Sim *sim, Parts *p, Err *err)
 {
   Limits l;
-  if (limits_of(sim, &l, err) || sim->b->store(sim, p, err)) return -1;
+  if (limits_of(sim, &l, err) || part_add(p, stored, err) || sim->b->store(sim, p, err)) return -1;
   p->time = sim->time;
   return part_set_number(p, "run", "SmoothingMin", sim->par.h_min, err) |
          part_set_number(p, "run", "SmoothingMax", sim->par.h_max, err) |
          part_set_number(p, "run", "NextStep", sim->dt, err) |
          part_set_number(p, "run", "Step", (double)sim->step, err);
+}
+
+int sim_store(Sim *sim, Parts *p, Err *err)
+{
+  return sim_send(sim, p, err) || sim->b->fetch(sim, p, err) ? -1 : 0;
 }

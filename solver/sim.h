@@ -9,7 +9,7 @@
 #define SIM_FIELDS "id x v m rho u h mat body"
 
 /* sim_open: checks what the solver needs (SIM_FIELDS; density floor, units), parses
- * the materials, gives the particles to the backend named by device ("auto", "cpu") and, unless
+ * the materials, gives the particles to the backend named by device ("auto", "cpu", "cuda", "cuda:K") and, unless
  * parts come from a checkpoint, evaluates the first rates. parts stays the caller's. Returns 0 or
  * -1. */
 int sim_open(Sim *sim, const Param *par, const Parts *parts, const char *device, Err *err);
@@ -37,6 +37,10 @@ const char *sim_limit_name(int limit);
 /* sim_store: the present state into parts, with time and the counters that sim_restart needs. A
  * state that makes no sense is an error as in sim_advance, so that no file ever holds one. */
 int sim_store(Sim *sim, Parts *parts, Err *err);
+
+/* sim_send: the first part of it: the state as it is now, on its way. The rest, sim->b->fetch, is
+ * for whoever needs parts, also in another thread while the run goes on. */
+int sim_send(Sim *sim, Parts *parts, Err *err);
 
 /* sim_step: the numbers of a step of length dt. */
 Step sim_step(const Sim *sim, double dt);

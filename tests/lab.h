@@ -44,10 +44,17 @@ static inline Param lab_param(const char *first, ...)
   return par;
 }
 
+/* lab_device: where the tests run: BRECCIA_TEST_DEVICE, or cpu. */
+static inline const char *lab_device(void)
+{
+  const char *device = getenv("BRECCIA_TEST_DEVICE");
+  return device ? device : "cpu";
+}
+
 static inline void lab_open(Sim *sim, const Param *par, const Parts *p)
 {
   Err err;
-  if (sim_open(sim, par, p, "cpu", &err)) fail_msg("%s", err.text);
+  if (sim_open(sim, par, p, lab_device(), &err)) fail_msg("%s", err.text);
 }
 
 /* lab_run: to time `until`; returns the number of steps. */
@@ -65,6 +72,12 @@ static inline void lab_store(Sim *sim, Parts *p)
 {
   Err err;
   if (sim_store(sim, p, &err)) fail_msg("%s", err.text);
+}
+
+static inline void lab_sums(Sim *sim, Sums *out)
+{
+  Err err;
+  if (sim->b->sums(sim, out, &err)) fail_msg("%s", err.text);
 }
 
 /* lab_lattice: positions of a cubic lattice of spacing dx whose points satisfy inside(x, data);

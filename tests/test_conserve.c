@@ -43,9 +43,9 @@ static void run(Parts *p, const Param *par, double t, int *steps, Sums *a, Sums 
 {
   Sim sim;
   lab_open(&sim, par, p);
-  sim.b->sums(&sim, a);
+  lab_sums(&sim, a);
   *steps = (int)lab_run(&sim, t);
-  sim.b->sums(&sim, b);
+  lab_sums(&sim, b);
   lab_store(&sim, p);
   sim_close(&sim);
 }

@@ -73,9 +73,9 @@ static double rotating(double dx, double turns, double jitter, double *radius, d
     p->m[i] = dx * dx * dx, p->rho[i] = 1, p->h[i] = 2.5 * dx;
   }
   lab_open(&sim, &par, p);
-  sim.b->sums(&sim, &a);
+  lab_sums(&sim, &a);
   lab_run(&sim, 100 * turns);
-  sim.b->sums(&sim, &b);
+  lab_sums(&sim, &b);
   lab_store(&sim, p);
   for (long i = 0; i < n; i++)
     far = fmax(far, sqrt(p->x[3 * i] * p->x[3 * i] + p->x[3 * i + 1] * p->x[3 * i + 1] +

@@ -159,7 +159,7 @@ static void input(void **state)
     if (k == 2) p->rho[3] = 0;
     if (k == 3) p->h[3] = INFINITY;
     if (k == 4) p->id[3] = p->id[4];
-    assert_int_equal(sim_open(&sim, &par, p, "cpu", &err), -1);
+    assert_int_equal(sim_open(&sim, &par, p, lab_device(), &err), -1);
     if (k < 4) assert_non_null(strstr(err.text, words[k]));
     assert_non_null(strstr(err.text, k < 4 ? "particle 103" : "104"));
     part_free(p);

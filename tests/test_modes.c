@@ -55,7 +55,7 @@ static double stir(const Parts *p, int body, double omega, double v[3])
 static Sums sums_of(Sim *sim)
 {
   Sums s;
-  sim->b->sums(sim, &s);
+  lab_sums(sim, &s);
   return s;
 }
 
@@ -128,7 +128,7 @@ static void too_many_bodies(void **state)
   Err err;
   (void)state;
   p->body[3] = 8;
-  assert_int_equal(sim_open(&sim, &par, p, "cpu", &err), -1);
+  assert_int_equal(sim_open(&sim, &par, p, lab_device(), &err), -1);
   assert_non_null(strstr(err.text, "of body 8"));
   part_free(p);
 }

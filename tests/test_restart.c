@@ -118,7 +118,7 @@ static void restart(void **state)
     lab_store(&sim, q);
     steps(&sim, 50);
     lab_store(&sim, p);
-    if (sim_restart(&again, &par, q, "cpu", &err)) fail_msg("%s", err.text);
+    if (sim_restart(&again, &par, q, lab_device(), &err)) fail_msg("%s", err.text);
     assert_true(again.step == before);
     steps(&again, 50);
     lab_store(&again, q);
@@ -165,7 +165,7 @@ static void refused(void **state)
   Sim sim;
   Err err;
   (void)state;
-  assert_int_equal(sim_restart(&sim, &par, p, "cpu", &err), -1);
+  assert_int_equal(sim_restart(&sim, &par, p, lab_device(), &err), -1);
   assert_non_null(strstr(err.text, "checkpoint"));
   assert_int_equal(sim_open(&sim, &par, p, "abacus", &err), -1);
   assert_non_null(strstr(err.text, "'abacus'"));

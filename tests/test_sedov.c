@@ -58,9 +58,9 @@ static void blast(void **state)
   double peak, r, mean = 0, square = 0;
   (void)state;
   lab_open(&sim, &par, p);
-  sim.b->sums(&sim, &a);
+  lab_sums(&sim, &a);
   print_message("%ld steps\n", lab_run(&sim, .05));
-  sim.b->sums(&sim, &b);
+  lab_sums(&sim, &b);
   lab_store(&sim, p);
   r = front(p, -1, &peak);
   print_message("half-maximum at %.4f (0.3475), peak %.3f, dE %.2e, p %.1e\n", r, peak,

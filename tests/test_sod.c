@@ -55,9 +55,9 @@ static void errors(double dx, int ratio, const char *density, const char *integr
   Sums a, b;
   double norm[3] = {0};
   lab_open(&sim, &par, p);
-  sim.b->sums(&sim, &a);
+  lab_sums(&sim, &a);
   lab_run(&sim, .2);
-  sim.b->sums(&sim, &b);
+  lab_sums(&sim, &b);
   lab_store(&sim, p);
   memset(out, 0, 3 * sizeof *out);
   for (long i = 0; i < p->n; i++) {

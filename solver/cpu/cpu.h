@@ -25,9 +25,9 @@ typedef struct {
 void cpu_gradient(Sim *sim);
 void cpu_force(Sim *sim);
 void cpu_density(Sim *sim);
-void cpu_limits(Sim *sim, const Step *step, Limits *out);
-void cpu_sums(Sim *sim, Sums *out);
-void cpu_bodies(Sim *sim, Step *step);
-double cpu_error(Sim *sim, const Step *step);
+int cpu_limits(Sim *sim, const Step *step, Limits *out, Err *err);
+int cpu_sums(Sim *sim, Sums *out, Err *err);
+int cpu_bodies(Sim *sim, Step *step, Err *err);
+int cpu_error(Sim *sim, const Step *step, double *worst, Err *err);
 
 #endif

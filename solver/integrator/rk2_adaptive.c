@@ -14,7 +14,7 @@ static int rates(Sim *sim, Step *k, int slot, Err *err)
   k->dt = 0;
   if (integrator_rates(sim, k, err)) return -1;
   if (k->damping > 0) {
-    sim->b->bodies(sim, k);
+    if (sim->b->bodies(sim, k, err)) return -1;
     sim->b->pass(sim, PASS_DAMP, k);
   }
   k->dt = dt, k->slot = slot, k->rates = 1;
@@ -28,15 +28,17 @@ static void combine(Sim *sim, Step *k, int stage)
   sim->b->pass(sim, PASS_COMBINE, k);
 }
 
-/* One trial step of length dt from saved[0]; its error over the tolerance, or -1. */
-static double trial(Sim *sim, double dt, Err *err)
+/* One trial step of length dt from saved[0]; its error over the tolerance. */
+static int trial(Sim *sim, double dt, double *error, Err *err)
 {
   Step k = sim_step(sim, dt);
   for (int stage = 0; stage < 3; stage++) {
     if (rates(sim, &k, stage + 1, err)) return -1;
     combine(sim, &k, stage);
   }
-  return sim->b->error(sim, &k) / sim->par.step_error;
+  if (sim->b->error(sim, &k, error, err)) return -1;
+  *error /= sim->par.step_error;
+  return 0;
 }
 
 /* The accelerations and limits that the run loop looks at, from the last evaluation (which is
@@ -62,13 +64,14 @@ static int step(Sim *sim, double *dt, Err *err)
   Step k = sim_step(sim, 0);
   double error, factor;
   sim->b->pass(sim, PASS_SAVE, &k);
-  while ((error = trial(sim, *dt, err)) > 1) {
+  for (;;) {
+    if (trial(sim, *dt, &error, err)) return -1;
+    if (!(error > 1)) break;
     *dt *= fmax(0.2, 0.9 * pow(error, -1. / 4));
     if (!(*dt > sim->par.step_min))
       return err_set(err, "the error control wants a step of %.3g s", *dt);
     sim->b->pass(sim, PASS_COMBINE, &k);
   }
-  if (error < 0) return -1;
   factor = error > 0 ? 0.9 * pow(error, -0.3) : 2;
   sim->dt = *dt * fmin(2, fmax(1, factor));
   sim->b->pass(sim, PASS_SETTLE, &k);

@@ -1,0 +1,159 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The reductions' physics: what one particle adds to a sum or holds against a minimum, how two
+ * partial results become one, and what is made of the last. The order in which this happens is the
+ * backend's and must be the same every time. */
+#ifndef REDUCE_H
+#define REDUCE_H
+
+#include "backend.h"
+
+/* Sums over all particles, as Sums has them. */
+typedef struct {
+  double v[15];
+} ReduceSums;
+
+HD void reduce_add_sums(ReduceSums *o, const State *s, long i)
+{
+  const double *x = &s->x[3 * i], *v = &s->v[3 * i];
+  double m = s->m[i], v2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+  double l[3] = {x[1] * v[2] - x[2] * v[1], x[2] * v[0] - x[0] * v[2], x[0] * v[1] - x[1] * v[0]};
+  o->v[0] += m, o->v[1] += 0.5 * m * v2, o->v[2] += m * s->u[i], o->v[3] += 0.5 * m * s->phi[i];
+  for (int d = 0; d < 3; d++)
+    o->v[4 + d] += m * v[d], o->v[7 + d] += m * l[d], o->v[10 + d] += m * x[d];
+  o->v[13] += m * sqrt(v2), o->v[14] += m * sqrt(l[0] * l[0] + l[1] * l[1] + l[2] * l[2]);
+}
+
+HD void reduce_merge_sums(ReduceSums *a, const ReduceSums *b)
+{
+  for (int k = 0; k < 15; k++) a->v[k] += b->v[k];
+}
+
+HD void reduce_sums(const ReduceSums *t, Sums *out)
+{
+  const double *v = t->v;
+  out->mass = v[0], out->kinetic = v[1], out->internal = v[2], out->potential = v[3];
+  for (int d = 0; d < 3; d++) {
+    out->momentum[d] = v[4 + d], out->angular[d] = v[7 + d];
+    out->centre[d] = v[0] > 0 ? v[10 + d] / v[0] : 0;
+  }
+  out->scale_momentum = v[13], out->scale_angular = v[14];
+}
+
+/* The limits of no particle. */
+HD Limits reduce_no_limits(void)
+{
+  Limits o;
+  for (int k = 0; k < LIMITS; k++) o.dt[k] = INFINITY, o.id[k] = INT64_MAX;
+  o.bad = -1, o.bad_reason = BAD_NONE;
+  return o;
+}
+
+/* reduce_merge_limits: ties go to the smaller id. */
+HD void reduce_merge_limits(Limits *a, const Limits *b)
+{
+  for (int k = 0; k < LIMITS; k++)
+    if (b->dt[k] < a->dt[k] || (b->dt[k] == a->dt[k] && b->id[k] < a->id[k]))
+      a->dt[k] = b->dt[k], a->id[k] = b->id[k];
+  if (b->bad >= 0 && (a->bad < 0 || b->bad < a->bad))
+    a->bad = b->bad, a->bad_reason = b->bad_reason;
+}
+
+HD void reduce_add_limits(Limits *o, const State *s, const Step *k, long i)
+{
+  Limits one;
+  one.bad_reason = pass_bad(s, i), one.bad = one.bad_reason ? s->id[i] : -1;
+  pass_limits(s, k, i, one.dt);
+  for (int c = 0; c < LIMITS; c++) one.id[c] = s->id[i];
+  reduce_merge_limits(o, &one);
+}
+
+/* reduce_body: the frame of damping that particle i belongs to. */
+HD int reduce_body(const State *s, long i)
+{
+  return s->body[i] >= 0 && s->body[i] < BODIES ? s->body[i] : 0;
+}
+
+/* Mass, and mass times position and velocity, of a body; of the predicted velocities, which are
+ * what is damped. */
+typedef struct {
+  double m, x[3], v[3];
+} ReduceMotion;
+
+HD void reduce_add_motion(ReduceMotion *o, const State *s, long i)
+{
+  o->m += s->m[i];
+  for (int d = 0; d < 3; d++)
+    o->x[d] += s->m[i] * s->x[3 * i + d], o->v[d] += s->m[i] * s->vp[3 * i + d];
+}
+
+HD void reduce_merge_motion(ReduceMotion *a, const ReduceMotion *b)
+{
+  a->m += b->m;
+  for (int d = 0; d < 3; d++) a->x[d] += b->x[d], a->v[d] += b->v[d];
+}
+
+/* reduce_motion: centre and velocity; those of no particles are 0. */
+HD void reduce_motion(const ReduceMotion *t, double centre[3], double velocity[3])
+{
+  for (int d = 0; d < 3; d++) {
+    centre[d] = t->m > 0 ? t->x[d] / t->m : 0;
+    velocity[d] = t->m > 0 ? t->v[d] / t->m : 0;
+  }
+}
+
+/* Angular momentum and inertia of a body about its own centre. */
+typedef struct {
+  double l[3];
+  Sym inertia;
+} ReduceSpin;
+
+HD void reduce_add_spin(ReduceSpin *o, const State *s, const double centre[3],
+                        const double velocity[3], long i)
+{
+  double r[3], v[3], r2 = 0;
+  for (int d = 0; d < 3; d++) {
+    r[d] = s->x[3 * i + d] - centre[d], v[d] = s->vp[3 * i + d] - velocity[d];
+    r2 += r[d] * r[d];
+  }
+  o->l[0] += s->m[i] * (r[1] * v[2] - r[2] * v[1]);
+  o->l[1] += s->m[i] * (r[2] * v[0] - r[0] * v[2]);
+  o->l[2] += s->m[i] * (r[0] * v[1] - r[1] * v[0]);
+  Sym part = {r2 - r[0] * r[0], -r[0] * r[1], -r[0] * r[2],
+              r2 - r[1] * r[1], -r[1] * r[2], r2 - r[2] * r[2]};
+  o->inertia = tensor_axpy(o->inertia, s->m[i], part);
+}
+
+HD void reduce_merge_spin(ReduceSpin *a, const ReduceSpin *b)
+{
+  for (int d = 0; d < 3; d++) a->l[d] += b->l[d];
+  a->inertia = tensor_axpy(a->inertia, 1, b->inertia);
+}
+
+/* reduce_spin: omega = I^-1 L; 0 for particles on a line. */
+HD void reduce_spin(const ReduceSpin *t, double omega[3]) { tensor_solve(t->inertia, t->l, omega); }
+
+/* The error of one number of rk2-adaptive over size, the largest so far kept in worst. */
+#define REDUCE_ERROR(MEMBER, J, SIZE)                                                              \
+  e = fabs(dt * (b->MEMBER[J] - (a->MEMBER[J] + 4 * b->MEMBER[J] + c->MEMBER[J]) / 6)) / (SIZE);   \
+  if (!(e <= worst)) worst = e <= 1e300 ? e : 1e300;
+
+/* reduce_error: of the midpoint rule against the third-order step, over what a tolerance of 1 would
+ * allow: lengths by h, speeds by the signal speed (or, in cold matter, h/1000 a step), the rest by
+ * its own size (001 eq. 63). What is not finite is 1e300. */
+HD double reduce_error(const State *s, double dt, long i)
+{
+  const Saved *a = &s->saved[1], *b = &s->saved[2], *c = &s->saved[3];
+  double cold = 1e-3 * s->h[i] / dt, scale = s->cl[i] > cold ? s->cl[i] : cold, worst = 0, e;
+  for (int d = 0; d < 3; d++) {
+    REDUCE_ERROR(x, 3 * i + d, s->h[i])
+    REDUCE_ERROR(v, 3 * i + d, scale)
+  }
+  for (int d = 0; d < 6; d++) { REDUCE_ERROR(s, 6 * i + d, s->rho[i] * scale * scale) }
+  REDUCE_ERROR(rho, i, s->rho[i])
+  REDUCE_ERROR(u, i, fabs(s->u[i]) + scale * scale)
+  REDUCE_ERROR(crack, i, 1)
+  return worst;
+}
+#undef REDUCE_ERROR
+
+#endif
