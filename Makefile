@@ -11,6 +11,9 @@ WARN = -Wall -Wextra -Wpedantic -Wshadow
 CPPFLAGS =
 LDFLAGS =
 T = *
+# CUDA, where nvcc is: NVCC= builds without. ARCH=native or ARCH=sm_90: for one card only.
+NVCC := $(firstword $(shell command -v nvcc) $(wildcard $(CUDA_HOME:%=%/bin/nvcc) /usr/local/cuda/bin/nvcc))
+ARCH ?= all
 
 # sqrt need not set errno and nothing traps; NaN and infinity keep their meaning. LOOPS, for the pair loops only: sums may be
 # reordered, so that they can be vectorised.
@@ -20,6 +23,7 @@ ifdef asan
 OPT = -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 B = build/asan
 BIN = build/asan/bin
+NVCC :=
 else
 B = build
 BIN = bin
@@ -29,17 +33,35 @@ hdf5 := $(firstword $(wildcard /usr/include/hdf5/serial))
 hdf5lib := $(firstword $(wildcard /usr/lib/*/hdf5/serial))
 cpp = -D_POSIX_C_SOURCE=200809L -DBRECCIA_VERSION='"$(VERSION)"' -I. $(hdf5:%=-isystem %) $(CPPFLAGS)
 cflags = -std=c11 $(OPT) $(WARN) $(MATH) -fopenmp $(CFLAGS)
-cxxflags = -std=c++17 $(filter-out -std=c11 -Wpedantic,$(cflags)) -Wno-unknown-pragmas -Itests/host
-libs = $(LDFLAGS) $(hdf5lib:%=-L%) -lhdf5 -lconfig -lgsl -lgslcblas -lpng -lz -lm
+cxxflags = -std=c++17 $(filter-out -std=c11 -Wpedantic -Wshadow,$(cflags)) -Wno-unknown-pragmas -Itests/host
+libs = $(LDFLAGS) $(hdf5lib:%=-L%) -lhdf5 -lconfig -lgsl -lgslcblas -lpng -lz -lm $(cudalibs) -lpthread
+
+comma := ,
+cuda := $(if $(wildcard solver/cuda/search.cu),$(wildcard solver/cuda/*.cu)) # until all parts are there
+ifeq ($(cuda),)
+NVCC :=
+endif
+# The runtime is linked statically: the same programs start where there is no GPU and no driver.
+ifneq ($(NVCC),)
+toolkit := $(patsubst %/bin/nvcc,%,$(realpath $(NVCC)))
+cudart := $(firstword $(wildcard $(addsuffix /libcudart_static.a,$(toolkit)/lib64 $(toolkit)/lib /usr/lib/*-linux-gnu)))
+cudalibs := $(cudart) -ldl -lrt -Wl,--as-needed -lstdc++
+codes := $(if $(filter all,$(ARCH)),$(foreach a,75 80 86 89 90,-gencode arch=compute_$a$(comma)code=sm_$a) \
+  -gencode arch=compute_90$(comma)code=compute_90,-arch=$(ARCH))
+nvccflags = -std=c++17 -O3 $(codes) $(CUDAMATH) -Xcompiler -Wall,-Wextra $(NVCCFLAGS)
+endif
 
 tools := $(notdir $(patsubst %/,%,$(wildcard tools/*/)))
 programs := $(tools) $(if $(wildcard solver/main.c),solver)
 cu_tests := $(patsubst tests/%.cu,%,$(wildcard tests/test_*.cu))
-tests := $(patsubst tests/%.c,%,$(wildcard tests/test_*.c)) $(cu_tests)
+c_tests := $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))
+cuda_tests := $(filter test_cuda%,$(c_tests))
+tests := $(c_tests) $(cu_tests)
 benches := $(patsubst bench/%.c,%,$(wildcard bench/*.c))
 lib_o := $(patsubst %.c,$B/%.o,$(wildcard lib/*.c))
-solver_o := $(patsubst %.c,$B/%.o,$(filter-out solver/main.c,$(wildcard solver/*.c solver/*/*.c)))
-host_o := $(patsubst %.cpp,$B/%.o,$(wildcard tests/host/*.cpp))
+solver_c := $(filter-out solver/main.c $(if $(NVCC),solver/nocuda/%),$(wildcard solver/*.c solver/*/*.c))
+solver_o := $(solver_c:%.c=$B/%.o) $(if $(NVCC),$(cuda:%.cu=$B/%.o))
+host_o := $(patsubst %.cpp,$B/%.o,$(wildcard tests/host/*.cpp)) $(cuda:%.cu=$B/host/%.o)
 objs = $(patsubst %.c,$B/%.o,$(wildcard $(1)/*.c))
 
 all: $(programs:%=$(BIN)/%) $(if $(asan),,$(benches:%=$B/bench/%))
@@ -52,9 +74,15 @@ $(programs:%=$(BIN)/%): $B/libsolver.a $B/libbreccia.a
 	$(CC) $(cflags) -o $@ $(filter %.o,$^) $(filter %.a,$^) $(libs)
 $B/tests/test_%: $B/tests/test_%.o $B/libsolver.a $B/libbreccia.a
 	$(CC) $(cflags) -o $@ $^ -lcmocka $(libs)
-# Tests of CUDA code run without a GPU: tests/host/ stands in for the toolkit.
-$(cu_tests:%=$B/tests/%): %: %.o $B/libhost.a $B/libsolver.a $B/libbreccia.a
+# Tests of CUDA code run without a GPU: tests/host/ stands in for the toolkit. All tests on the GPU, for check-gpu.
+$(cu_tests:%=$B/tests/%) $(cuda_tests:%=$B/tests/%): %: %.o $B/libhost.a $B/libsolver.a $B/libbreccia.a
 	$(CXX) $(cxxflags) -o $@ $^ -lcmocka $(libs)
+$B/gpu/tests/test_%: $B/tests/test_%.o $B/libsolver.a $B/libbreccia.a
+	@mkdir -p $(@D)
+	$(CC) $(cflags) -o $@ $^ -lcmocka $(libs)
+$(cu_tests:%=$B/gpu/tests/%): %: %.o $B/libsolver.a $B/libbreccia.a
+	@mkdir -p $(@D)
+	$(CC) $(cflags) -o $@ $^ -lcmocka $(libs)
 $B/bench/%: $B/bench/%.o $B/libsolver.a $B/libbreccia.a
 	$(CC) $(cflags) -o $@ $^ $(libs)
 $B/libbreccia.a: $(lib_o)
@@ -73,18 +101,34 @@ $B/%.o: %.c $B/flags
 $B/tests/%.o: tests/%.cu $B/flags
 	@mkdir -p $(@D)
 	$(CXX) $(cpp) $(cxxflags) -MMD -MP -x c++ -c -o $@ $<
+$B/host/%.o: %.cu $B/flags
+	@mkdir -p $(@D)
+	$(CXX) $(cpp) $(cxxflags) -MMD -MP -x c++ -c -o $@ $<
+# Where only single precision is at stake: approximate division and square root, no denormal numbers.
+$B/solver/cuda/loops_mixed.o $B/solver/cuda/gravity.o: CUDAMATH = -use_fast_math
+$B/gpu/%.o: %.cu $B/flags
+	@mkdir -p $(@D)
+	$(NVCC) $(cpp) $(nvccflags) -MMD -MP -c -o $@ $<
+$B/%.o: %.cu $B/flags
+	@mkdir -p $(@D)
+	$(NVCC) $(cpp) $(nvccflags) -MMD -MP -c -o $@ $<
 $B/tests/%.o: tests/%.cpp $B/flags
 	@mkdir -p $(@D)
 	$(CXX) $(cpp) $(cxxflags) -MMD -MP -c -o $@ $<
 # Changed flags rebuild everything.
+allflags = $(CC) $(cpp) $(cflags) $(CXX) $(NVCC) $(nvccflags)
 $B/flags: FORCE
 	@mkdir -p $(@D)
-	@echo '$(CC) $(cpp) $(cflags)' | cmp -s - $@ || echo '$(CC) $(cpp) $(cflags)' > $@
+	@echo '$(allflags)' | cmp -s - $@ || echo '$(allflags)' > $@
 -include $(shell find $B -name '*.d' 2>/dev/null)
 
 # `make check` runs all tests, `make check T=eos` those whose name matches.
 check: all $(tests:%=$B/tests/%)
 	@BIN=$(abspath $(BIN)) B=$(abspath $B) tests/run '$(T)'
+
+# The same tests, and those of CUDA code, on a GPU.
+check-gpu: all $(filter-out $B/gpu/tests/test_host_%,$(tests:%=$B/gpu/tests/%))
+	@BIN=$(abspath $(BIN)) B=$(abspath $B/gpu) BRECCIA_TEST_DEVICE=cuda tests/run '$(T)'
 
 bench: all
 	@for b in $(benches:%=$B/bench/%); do $$b || exit 1; done
@@ -113,6 +157,7 @@ help:
 	@echo 'make            build everything into bin/'
 	@echo 'make deps       install what the build needs (apt-get)'
 	@echo 'make check      run all tests; make check T=eos runs those that match'
+	@echo 'make check-gpu  the same on a GPU'
 	@echo 'make bench      check, then time, the hot passes'
 	@echo 'make lint       format, lengths, exported names'
 	@echo 'make docs       the generated tables of docs/'
@@ -120,6 +165,6 @@ help:
 	@echo 'make asan=1 check     the same with address and undefined-behaviour sanitizers'
 
 FORCE:
-.PHONY: all check bench lint docs deps install clean help FORCE
+.PHONY: all check check-gpu bench lint docs deps install clean help FORCE
 .DELETE_ON_ERROR:
 .SECONDARY:

@@ -13,6 +13,7 @@ extern "C" {
 #include "../backend.h"
 }
 #include "launch.h"
+#include <stdlib.h>
 
 enum {
   CUDA_GROUP = 32, /* particles that share a neighbour list block: i / 32, lane i % 32 */
@@ -45,13 +46,13 @@ typedef struct {
  * root is node 0. Leaves hold at most TREE_BUCKET particles unless these share a cell of the last
  * level. Boxes are tight, in code units from the root's origin, rounded outwards. */
 typedef struct {
-  int4 *link;   /* [nodes] x: first child, y: children (0: leaf), z: first particle, w: particles */
-  float4 *lo;   /* [nodes] box; w: size, the longest edge of the smallest cell */
-  float4 *hi;   /* [nodes] box; w: h_max */
-  float4 *com;  /* [nodes] centre of mass, rounded; w: mass */
-  Pole *pole;   /* [nodes] */
+  int4 *link;  /* [nodes] x: first child, y: children (0: leaf), z: first particle, w: particles */
+  float4 *lo;  /* [nodes] box; w: size, the longest edge of the smallest cell */
+  float4 *hi;  /* [nodes] box; w: h_max */
+  float4 *com; /* [nodes] centre of mass, rounded; w: mass */
+  Pole *pole;  /* [nodes] */
   double *moment; /* [nodes][10] SI, for the upward pass */
-  int *level;   /* [CUDA_LEVELS + 2] first node of each level; level[CUDA_LEVELS + 1]: all nodes */
+  int *level; /* [CUDA_LEVELS + 2] first node of each level; level[CUDA_LEVELS + 1]: all nodes */
   int nodes, levels; /* as the host knows them after cuda_tree */
   long room;
 } DeviceTree;
@@ -60,8 +61,8 @@ typedef struct {
  * pair is listed when it interacts at x or at y; now and then one more that does not, by rounding:
  * the loops test. Ascending in j. */
 typedef struct {
-  int64_t *start;  /* [groups + 1] */
-  int *count;      /* [n] */
+  int64_t *start; /* [groups + 1] */
+  int *count;     /* [n] */
   uint32_t *list;
   int64_t room;
 } Lists;
@@ -81,35 +82,84 @@ typedef struct {
   struct CudaLoops *loops;     /* private to loops.cu */
   struct CudaGravity *gravity; /* private to gravity.cu */
   struct CudaReduce *reduce;   /* private to reduce.cu */
+  struct CudaStore *store;     /* private to store.cu */
+  struct CudaClock *clock;     /* private to clock.cu */
   double *pull;                /* [n][3] gravity [m/s^2], kept between evaluations */
+  double *flaw;                /* all thresholds */
+  Material *material;
+  size_t bytes; /* allocated so far */
 } Cuda;
 
 static inline Cuda *cuda_of(const Sim *sim) { return (Cuda *)sim->own; }
 
-/* Each file: open allocates, close frees (also after a failed open); steps return 0 or -1 with a
- * message. No step but cuda_search, cuda_limits, cuda_sums, cuda_bodies waits for the device. */
+/* cuda_alloc: zeroed memory of the card; -1 with a message that says what is missing. cuda_free:
+ * NULL is fine. */
+int cuda_alloc(Sim *sim, void **at, size_t bytes, Err *err);
+void cuda_free(void *at);
+
+/* cuda_state_open: from parts: the arrays of the state, each an allocation of its own (so that
+ * pointers may be exchanged with others as long), points, thresholds, materials, code units. Arrays
+ * that no pass touches stay NULL. cuda_state_bytes: what that takes. */
+int cuda_state_open(Sim *sim, const Parts *parts, Err *err);
+size_t cuda_state_bytes(Sim *sim, const Parts *parts);
+void cuda_state_close(Sim *sim);
+
+/* cuda_columns: the arrays of the state that are there, those that move with their particles first;
+ * returns how many these are, *all: how many in all. */
+typedef struct {
+  void **array;     /* where the State has its pointer */
+  int width, size;  /* elements a particle, bytes an element: 4 or 8 */
+  const char *name; /* of the member */
+} CudaColumn;
+enum { CUDA_COLUMNS = 128 };
+int cuda_columns(Sim *sim, CudaColumn column[CUDA_COLUMNS], int *all);
+
+/* cuda_store, cuda_fetch: see struct backend. cuda_copy: waits. */
+int cuda_store_open(Sim *sim, Err *err);
+int cuda_store(Sim *sim, Parts *parts, Err *err);
+int cuda_fetch(Sim *sim, Parts *parts, Err *err);
+int cuda_copy(Sim *sim, void *to, const void *from, size_t bytes, Err *err);
+void cuda_store_close(Sim *sim);
+
+/* cuda_begin, cuda_end: bracket a pass when sim->profile; cuda_clock: adds up what has ended; call
+ * it when the stream is idle. */
+int cuda_clock_open(Sim *sim, Err *err);
+void cuda_begin(Sim *sim, int timer);
+void cuda_end(Sim *sim);
+void cuda_clock(Sim *sim);
+void cuda_clock_close(Sim *sim);
+
+/* Each part: bytes is what its open will take for sim->s.n particles; open allocates, close frees
+ * (also after a failed open); steps return 0 or -1 with a message. Steps that return nothing leave
+ * a failure in `error`, which the next step that returns something reports. No step but cuda_lists
+ * and the reductions waits for the device. */
+size_t cuda_order_bytes(const Sim *sim);
 int cuda_order_open(Sim *sim, Err *err);
 int cuda_order(Sim *sim, Err *err); /* root, keys, sort, permutation; then points x and y */
 void cuda_order_close(Sim *sim);
+size_t cuda_tree_bytes(const Sim *sim);
 int cuda_tree_open(Sim *sim, Err *err);
 int cuda_tree(Sim *sim, Err *err); /* nodes, boxes, moments from points x and the state */
 void cuda_tree_close(Sim *sim);
+size_t cuda_lists_bytes(const Sim *sim);
 int cuda_lists_open(Sim *sim, Err *err);
-int cuda_lists(Sim *sim, Err *err); /* exact lists; grows them and repeats when they are too short */
+int cuda_lists(Sim *sim, Err *err); /* exact; grows them and repeats when they are too short */
 void cuda_lists_close(Sim *sim);
+size_t cuda_loops_bytes(const Sim *sim);
 int cuda_loops_open(Sim *sim, Err *err);
 void cuda_gradient(Sim *sim);
 void cuda_density(Sim *sim);
 void cuda_force(Sim *sim);
 void cuda_loops_close(Sim *sim);
+size_t cuda_gravity_bytes(const Sim *sim);
 int cuda_gravity_open(Sim *sim, Err *err);
 int cuda_gravity(Sim *sim, Err *err); /* tree or direct: pull and phi, added to acc */
 void cuda_gravity_close(Sim *sim);
 int cuda_reduce_open(Sim *sim, Err *err);
-void cuda_limits(Sim *sim, const Step *step, Limits *out);
-void cuda_sums(Sim *sim, Sums *out);
-void cuda_bodies(Sim *sim, Step *step);
-double cuda_error(Sim *sim, const Step *step);
+int cuda_limits(Sim *sim, const Step *step, Limits *out, Err *err);
+int cuda_sums(Sim *sim, Sums *out, Err *err);
+int cuda_bodies(Sim *sim, Step *step, Err *err);
+int cuda_error(Sim *sim, const Step *step, double *worst, Err *err);
 void cuda_reduce_close(Sim *sim);
 
 #endif

@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The passes' times for --profile: pairs of events on the stream, read when it is idle anyway. */
+#include "cuda.h"
+
+enum { SPANS = 256 };
+
+typedef struct {
+  cudaEvent_t from, to;
+  int timer;
+} Span;
+
+struct CudaClock {
+  Span span[SPANS];
+  int count;
+};
+
+int cuda_clock_open(Sim *sim, Err *err)
+{
+  Cuda *c = cuda_of(sim);
+  CudaError *error = &c->error;
+  if (!sim->profile) return 0;
+  if (!(c->clock = (struct CudaClock *)calloc(1, sizeof *c->clock)))
+    return err_set(err, "not enough memory");
+  for (int k = 0; k < SPANS; k++) {
+    CHECK(cudaEventCreate(&c->clock->span[k].from));
+    CHECK(cudaEventCreate(&c->clock->span[k].to));
+  }
+  return launch_failed(error, err);
+}
+
+void cuda_begin(Sim *sim, int timer)
+{
+  Cuda *c = cuda_of(sim);
+  CudaError *error = &c->error;
+  if (!c->clock) return;
+  if (c->clock->count == SPANS) {
+    CHECK(cudaStreamSynchronize(c->stream));
+    cuda_clock(sim);
+  }
+  c->clock->span[c->clock->count].timer = timer;
+  CHECK(cudaEventRecord(c->clock->span[c->clock->count].from, c->stream));
+}
+
+void cuda_end(Sim *sim)
+{
+  Cuda *c = cuda_of(sim);
+  CudaError *error = &c->error;
+  if (!c->clock) return;
+  CHECK(cudaEventRecord(c->clock->span[c->clock->count++].to, c->stream));
+}
+
+void cuda_clock(Sim *sim)
+{
+  Cuda *c = cuda_of(sim);
+  CudaError *error = &c->error;
+  if (!c->clock) return;
+  for (int k = 0; k < c->clock->count; k++) {
+    const Span *span = &c->clock->span[k];
+    float ms = 0;
+    CHECK(cudaEventElapsedTime(&ms, span->from, span->to));
+    sim->timer[span->timer].spent += 1e-3 * ms;
+    sim->timer[span->timer].calls++;
+  }
+  c->clock->count = 0;
+}
+
+void cuda_clock_close(Sim *sim)
+{
+  struct CudaClock *clock = cuda_of(sim)->clock;
+  if (!clock) return;
+  for (int k = 0; k < SPANS; k++) {
+    if (clock->span[k].from) cudaEventDestroy(clock->span[k].from);
+    if (clock->span[k].to) cudaEventDestroy(clock->span[k].to);
+  }
+  free(clock);
+}

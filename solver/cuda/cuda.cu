@@ -1,0 +1,148 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The CUDA backend: opening a card, the stamps of the per-particle passes, the order of the parts.
+ * Work is queued on one stream; the host waits for the list's length and for the step's limits. */
+#include "cuda.h"
+
+/* A kernel a pass. */
+#define CUDA_PASS(CAPITAL, NAME)                                                                   \
+  static __global__ void pass_##NAME##_all(const State s, const Step k)                            \
+  {                                                                                                \
+    long i = (long)blockIdx.x * blockDim.x + threadIdx.x;                                          \
+    if (i < s.n) pass_##NAME(&s, &k, i);                                                           \
+  }
+PASSES(CUDA_PASS)
+#undef CUDA_PASS
+
+static void cuda_pass(Sim *sim, int pass, const Step *step)
+{
+  Cuda *c = cuda_of(sim);
+  CudaError *error = &c->error;
+  const unsigned block = 128, grid = launch_blocks((size_t)sim->s.n, block);
+  cuda_begin(sim, TIMER_LOCAL);
+  switch (pass) {
+#define CUDA_PASS(CAPITAL, NAME)                                                                   \
+  case PASS_##CAPITAL: LAUNCH(pass_##NAME##_all, grid, block, 0, c->stream, sim->s, *step); break;
+    PASSES(CUDA_PASS)
+#undef CUDA_PASS
+  default: break;
+  }
+  cuda_end(sim);
+}
+
+static int cuda_cards(void)
+{
+  int n = 0;
+  return cudaGetDeviceCount(&n) == cudaSuccess ? n : 0;
+}
+
+/* Bytes that the run takes, and a little for what is not counted. */
+static size_t wanted(Sim *sim, const Parts *p)
+{
+  const size_t rest = (size_t)1 << 27;
+  return cuda_state_bytes(sim, p) + cuda_order_bytes(sim) + cuda_tree_bytes(sim) +
+         cuda_lists_bytes(sim) + cuda_loops_bytes(sim) + cuda_gravity_bytes(sim) + rest;
+}
+
+/* The card by name, and whether the particles fit. */
+static int look_at_card(Sim *sim, const Parts *p, Err *err)
+{
+  CudaError *error = &cuda_of(sim)->error;
+  cudaDeviceProp card;
+  size_t available = 0, total = 0, need = wanted(sim, p), each = need / (size_t)p->n + 1;
+  int driver = 0;
+  memset(&card, 0, sizeof card);
+  CHECK(cudaGetDeviceProperties(&card, sim->card));
+  CHECK(cudaDriverGetVersion(&driver));
+  CHECK(cudaMemGetInfo(&available, &total));
+  if (launch_failed(error, err)) return -1;
+  snprintf(sim->about, sizeof sim->about,
+           "cuda:%d, %.100s (compute %d.%d, driver %d.%d), %.4g of %.4g GB, %zu B a particle",
+           sim->card, card.name, card.major, card.minor, driver / 1000, driver % 1000 / 10,
+           1e-9 * (double)need, 1e-9 * (double)total, each);
+  if (need <= available) return 0;
+  return err_set(err,
+                 "%ld particles do not fit on card %d: they need %.4g GB (%zu B each), %.4g GB are "
+                 "free, enough for %zu",
+                 p->n, sim->card, 1e-9 * (double)need, each, 1e-9 * (double)available,
+                 available / each);
+}
+
+static void cuda_close(Sim *sim)
+{
+  Cuda *c = cuda_of(sim);
+  if (!c) return;
+  if (c->stream) cudaStreamSynchronize(c->stream);
+  cuda_reduce_close(sim), cuda_gravity_close(sim), cuda_loops_close(sim), cuda_lists_close(sim);
+  cuda_tree_close(sim), cuda_order_close(sim), cuda_clock_close(sim), cuda_store_close(sim);
+  cuda_state_close(sim);
+  if (c->stream) cudaStreamDestroy(c->stream);
+  free(c);
+  sim->own = NULL;
+  memset(&sim->s, 0, sizeof sim->s);
+}
+
+static int cuda_open(Sim *sim, const Parts *p, Err *err)
+{
+  Cuda *c = (Cuda *)calloc(1, sizeof *c);
+  if (!c) return err_set(err, "not enough memory");
+  CudaError *error = &c->error;
+  sim->own = c;
+  memset(&sim->s, 0, sizeof sim->s);
+  sim->s.n = p->n, sim->s.dimension = p->dimension;
+  CHECK(cudaSetDevice(sim->card));
+  CHECK(cudaStreamCreateWithFlags(&c->stream, cudaStreamNonBlocking));
+  if (!launch_failed(error, err) && !look_at_card(sim, p, err) && !cuda_state_open(sim, p, err) &&
+      !cuda_order_open(sim, err) && !cuda_tree_open(sim, err) && !cuda_lists_open(sim, err) &&
+      !cuda_loops_open(sim, err) && !cuda_gravity_open(sim, err) && !cuda_reduce_open(sim, err) &&
+      !cuda_clock_open(sim, err) && !cuda_store_open(sim, err))
+    return 0;
+  cuda_close(sim);
+  return -1;
+}
+
+static int cuda_search(Sim *sim, Err *err)
+{
+  int bad;
+  cuda_begin(sim, TIMER_ORDER);
+  bad = cuda_order(sim, err) || cuda_tree(sim, err);
+  cuda_end(sim);
+  if (bad) return -1;
+  cuda_begin(sim, TIMER_SEARCH);
+  bad = cuda_lists(sim, err);
+  cuda_end(sim);
+  return bad;
+}
+
+static void timed_gradient(Sim *sim)
+{
+  cuda_begin(sim, TIMER_A), cuda_gradient(sim), cuda_end(sim);
+}
+
+static void timed_density(Sim *sim)
+{
+  cuda_begin(sim, TIMER_DENSITY), cuda_density(sim), cuda_end(sim);
+}
+
+static void timed_force(Sim *sim) { cuda_begin(sim, TIMER_B), cuda_force(sim), cuda_end(sim); }
+
+static int timed_gravity(Sim *sim, Err *err)
+{
+  int bad;
+  if (sim->par.gravity == PARAM_NONE) return 0;
+  cuda_begin(sim, TIMER_GRAVITY), bad = cuda_gravity(sim, err), cuda_end(sim);
+  return bad;
+}
+
+static int timed_limits(Sim *sim, const Step *step, Limits *out, Err *err)
+{
+  int bad;
+  cuda_begin(sim, TIMER_REDUCE), bad = cuda_limits(sim, step, out, err), cuda_end(sim);
+  cuda_clock(sim);
+  return bad;
+}
+
+/* clang-format off */
+extern "C" const struct backend backend_cuda = {
+  "cuda", cuda_cards, cuda_open, cuda_close, cuda_store, cuda_fetch, cuda_copy, cuda_search, cuda_pass,
+  timed_gradient, timed_density, timed_force, timed_gravity, timed_limits, cuda_sums, cuda_bodies, cuda_error};
+/* clang-format on */
