@@ -70,14 +70,15 @@ HD PairGradient pair_gradient(PairVector r, PairVector v, real h, real volume, i
   return o;
 }
 
-/* Loop B: what it reads of a particle besides its place. t is sigma C/rho^2 [Pa m^6/kg^2] with
- * damage (001 eq. 20-21), C the inverse moment matrix on the deviatoric part (passes_pack); a fluid
- * has only txx = -p/rho^2. */
+/* Loop B: what it reads of a particle besides its place. p and S as damage leaves them (001 eq.
+ * 20-21); C is the inverse moment matrix (passes_pack). A fluid has no d. */
 typedef struct {
-  real vx, vy, vz;      /* m/s */
-  real h, m, inverse_m; /* m, kg, 1/kg (miscible only) */
-  real rho, cs, signal; /* kg/m^3, m/s: bulk and longitudinal wave speed */
-  real txx, txy, txz, tyx, tyy, tyz, tzx, tzy, tzz;
+  real vx, vy, vz;                                  /* m/s */
+  real h, m, inverse_m;                             /* m, kg, 1/kg (miscible only) */
+  real rho, inverse_rho;                            /* kg/m^3, m^3/kg (solid only) */
+  real cs, signal;                                  /* m/s: bulk and longitudinal wave speed */
+  real p;                                           /* p/rho^2 [Pa m^6/kg^2] */
+  real dxx, dxy, dxz, dyx, dyy, dyz, dzx, dzy, dzz; /* S C/rho [Pa m^3/kg] */
 } PairBody;
 
 typedef struct {
@@ -96,36 +97,42 @@ HD real pair_signal(real waves, real vr, real r2, real viscous)
   return both > (real)3.2 * viscous ? both : (real)3.2 * viscous;
 }
 
-/* pair_traction: t r. */
-HD PairVector pair_traction(const PairBody *b, PairVector r, int solid)
+/* pair_shear: d r. */
+HD PairVector pair_shear(const PairBody *b, PairVector r)
 {
-  PairVector o = {b->txx * r.x, b->txx * r.y, b->txx * r.z};
-  if (!solid) return o;
-  o.x = b->txx * r.x + b->txy * r.y + b->txz * r.z;
-  o.y = b->tyx * r.x + b->tyy * r.y + b->tyz * r.z;
-  o.z = b->tzx * r.x + b->tzy * r.y + b->tzz * r.z;
+  PairVector o = {b->dxx * r.x + b->dxy * r.y + b->dxz * r.z,
+                  b->dyx * r.x + b->dyy * r.y + b->dyz * r.z,
+                  b->dzx * r.x + b->dzy * r.y + b->dzz * r.z};
   return o;
 }
 
-/* pair_force: F = m_i m_j T . grad W, heating -1/2 v_ij . F, T = t_i + t_j - Pi, r = r_i - r_j.
- * Corrects 001 eq. 30-35 (signs; heating by the viscosity). miscible: the number-density form (004
- * eq. 2.51-2.54 with the mass that the viscosity lacks in print): T = m_i/m_j t_i + m_j/m_i t_j -
- * Pi, and each particle's own stress does its work (the variational form), which keeps the entropy
- * across a jump of density. */
+/* pair_force: F = m_i m_j T . grad W, heating -1/2 v_ij . F, r = r_i - r_j,
+ *   T = -(p_i/rho_i^2 + p_j/rho_j^2 + Pi) 1 + (S_i C_i + S_j C_j)/(rho_i rho_j).
+ * Corrects 001 eq. 30-35 (signs; heating by the viscosity). The pressure goes with the density by
+ * continuity, the stress with the corrected gradient that drives it (docs/theory.md 2.4).
+ * miscible: the number-density form (004 eq. 2.51-2.54 with the mass that the viscosity lacks in
+ * print): m_i/m_j p_i/rho_i^2 + m_j/m_i p_j/rho_j^2, and each particle's own stress does its work
+ * (the variational form), which keeps the entropy across a jump of density. */
 HD PairForce pair_force(PairVector r, const PairBody *i, const PairBody *j, int kern, int line,
                         int solid, int miscible, const PairRun *run)
 {
   PairForce o;
   int inside;
-  PairVector v = {i->vx - j->vx, i->vy - j->vy, i->vz - j->vz};
-  PairVector ti = pair_traction(i, r, solid), tj = pair_traction(j, r, solid), t;
+  PairVector v = {i->vx - j->vx, i->vy - j->vy, i->vz - j->vz}, t;
   real r2 = pair_dot(r, r), vr = pair_dot(v, r), h = 0.5f * (i->h + j->h), own;
   real f = i->m * j->m * pair_slope(kern, line, run, r2, h, &inside);
   real nu = viscosity_nu(vr, r2, h), cs = 0.5f * (i->cs + j->cs);
   real pi = viscosity_pi(nu, cs, 0.5f * (i->rho + j->rho), (real)run->alpha, (real)run->beta);
-  real ki = miscible ? i->m * j->inverse_m : 1, kj = miscible ? j->m * i->inverse_m : 1;
-  t.x = ki * ti.x + kj * tj.x, t.y = ki * ti.y + kj * tj.y, t.z = ki * ti.z + kj * tj.z;
-  own = miscible ? 2 * ki * pair_dot(v, ti) : pair_dot(v, t);
+  real own_p = (miscible ? i->m * j->inverse_m : 1) * i->p;
+  real p = own_p + (miscible ? j->m * i->inverse_m : 1) * j->p;
+  t.x = -p * r.x, t.y = -p * r.y, t.z = -p * r.z, own = -2 * own_p * vr;
+  if (solid) {
+    PairVector di = pair_shear(i, r), dj = pair_shear(j, r);
+    real wi = j->inverse_rho, wj = i->inverse_rho;
+    t.x += wi * di.x + wj * dj.x, t.y += wi * di.y + wj * dj.y, t.z += wi * di.z + wj * dj.z;
+    own += 2 * wi * pair_dot(v, di);
+  }
+  if (!miscible) own = pair_dot(v, t);
   o.fx = f * (t.x - pi * r.x), o.fy = f * (t.y - pi * r.y), o.fz = f * (t.z - pi * r.z);
   o.work = 0.5f * f * (pi * vr - own);
   o.signal = inside ? pair_signal(i->signal + j->signal, vr, r2,

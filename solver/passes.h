@@ -177,30 +177,29 @@ HD void passes_damage(const State *s, long i, double dt)
   s->damage[i] = damage_grow(s->damage[i], active, s->nact[i], s->nflaw[i], cg, s->h[i], dt);
 }
 
-/* passes_pack: sigma/rho^2 for the force loop, the deviatoric part times C, the inverse moment
- * matrix, turned from loop A's positions by the spin over dt to those of the force loop. As C also
- * corrects the gradient that drives S, the two are adjoint; and as sum V_j r W' C = 1, stress
- * exerts no torque where the density is even (Bonet & Lok 1999, CMAME 180, 97). */
+/* passes_pack: p and S C/rho as the force loop takes them. C, the inverse moment matrix of loop A,
+ * is turned by the spin over dt, from loop A's positions to those of the force loop. As C also
+ * corrects the gradient that drives S, the two are adjoint; and as sum V_j r W' C = 1, the stress
+ * exerts no torque on a neighbourhood (Bonet & Lok 1999, CMAME 180, 97). */
 HD void passes_pack(const State *s, long i, int solid, double dt)
 {
-  double w = 1 / (s->rho[i] * s->rho[i]), left = 1 - s->damage[i], p = s->p[i], *t = &s->t[9 * i];
-  double push = (p < 0 ? left * p : p) * w;
-  for (int d = 0; d < 9; d++) t[d] = 0;
+  double left = 1 - s->damage[i], p = s->p[i], *t = &s->t[9 * i];
+  s->push[i] = (p < 0 ? left * p : p) / (s->rho[i] * s->rho[i]);
+  for (int d = 0; d < 9 && !solid; d++) t[d] = 0;
   if (solid) {
     Sym c = passes_rotate(passes_stress(&s->cm[6 * i]), &s->g[9 * i], dt);
-    tensor_product(tensor_scale(passes_stress(&s->s[6 * i]), left * w), c, t);
+    tensor_product(tensor_scale(passes_stress(&s->s[6 * i]), left / s->rho[i]), c, t);
   }
-  t[0] -= push, t[4] -= push, t[8] -= push;
 }
 
 /* passes_body: the record of i for the force loop. */
 HD PairBody passes_body(const State *s, long i)
 {
-  const double *v = &s->vp[3 * i], *t = &s->t[9 * i];
-  PairBody b = {(real)v[0],          (real)v[1],      (real)v[2],     (real)s->h[i],  (real)s->m[i],
-                (real)(1 / s->m[i]), (real)s->rho[i], (real)s->cs[i], (real)s->cl[i], (real)t[0],
-                (real)t[1],          (real)t[2],      (real)t[3],     (real)t[4],     (real)t[5],
-                (real)t[6],          (real)t[7],      (real)t[8]};
+  const double *v = &s->vp[3 * i], *t = &s->t[9 * i], m = s->m[i], rho = s->rho[i];
+  PairBody b = {(real)v[0],       (real)v[1], (real)v[2],      (real)s->h[i],  (real)m,
+                (real)(1 / m),    (real)rho,  (real)(1 / rho), (real)s->cs[i], (real)s->cl[i],
+                (real)s->push[i], (real)t[0], (real)t[1],      (real)t[2],     (real)t[3],
+                (real)t[4],       (real)t[5], (real)t[6],      (real)t[7],     (real)t[8]};
   return b;
 }
 

@@ -23,7 +23,7 @@ typedef struct {
 /* On the x axis at distance d, both with pressure p and approaching with speed v. */
 static Pair axis_pair(double d, double p, double v)
 {
-  PairBody b = {0, 0, 0, 1, 1, 1, 1, 1, 1, -p, 0, 0, 0, -p, 0, 0, 0, -p};
+  PairBody b = {0, 0, 0, 1, 1, 1, 1, 1, 1, 1, p, 0, 0, 0, 0, 0, 0, 0, 0, 0};
   Pair o = {{d, 0, 0}, b, b};
   o.i.vx = -.5 * v, o.j.vx = .5 * v;
   return o;
@@ -77,10 +77,12 @@ static void viscosity(void **state)
 static PairBody random_body(long n, int dim, int solid)
 {
   PairBody b;
-  double t = -noise(n, 0), m = exp(noise(n, 1)), *v = &b.vx, *stress = &b.txx;
+  double m = exp(noise(n, 1)), *v = &b.vx, *stress = &b.dxx;
   for (int k = 0; k < 3; k++) v[k] = k < dim ? .5 * noise(n, 5 + k) : 0;
-  for (int k = 0; k < 9; k++) stress[k] = (k % 4 == 0 ? t : 0) + (solid ? noise(n, 11 + k) : 0);
+  for (int k = 0; k < 9; k++) stress[k] = solid ? noise(n, 11 + k) : 0;
+  b.p = noise(n, 0);
   b.h = exp(noise(n, 8)), b.m = m, b.inverse_m = 1 / m, b.rho = exp(noise(n, 9));
+  b.inverse_rho = 1 / b.rho;
   b.cs = exp(noise(n, 10)), b.signal = b.cs * 1.2;
   return b;
 }

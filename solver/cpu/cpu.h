@@ -14,7 +14,7 @@ typedef struct {
   Ngb ngb;
   PairRun run;
   long *order;    /* [n] */
-  double *record; /* [n][21] packed records of the loop at hand */
+  double *record; /* [n][23] packed records of the loop at hand */
   double *pull;   /* [n][3] gravity */
   void *scratch;  /* [threads][share] bytes, for reordering */
   size_t share;

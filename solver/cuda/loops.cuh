@@ -29,8 +29,8 @@ typedef struct {
   PairRun run;
   const Root *root;
   Units unit;
-  double rho, push; /* units of density [kg/m^D] and of sigma/rho^2 */
-  int kern;         /* for the general instances */
+  double rho; /* unit of density [kg/m^D] */
+  int kern;   /* for the general instances */
 } Loop;
 
 static __device__ long self_of(void) { return (long)blockIdx.x * blockDim.x + threadIdx.x; }
@@ -53,21 +53,21 @@ static __global__ void pack_flow(Loop a)
   place_set(a.r.v, i, v[0] * iv, v[1] * iv, v[2] * iv, 0, 0);
 }
 
-/* Records for loop B: x with h and m; v, rho | cs, signal, txx, txy | the rest of t. */
+/* Records for loop B: x with h and m; v, rho | cs, signal, p, dxx | the rest of d. */
 template <int solid> static __global__ void pack_body(Loop a)
 {
   long i = self_of();
   const State &s = a.s;
-  const double il = 1 / a.unit.length, iv = 1 / a.unit.speed, it = 1 / a.push;
+  const double il = 1 / a.unit.length, iv = 1 / a.unit.speed, it = iv * iv;
   const double *x = &s.x[3 * i], *v = &s.vp[3 * i], *t = &s.t[9 * i];
   if (i >= s.n) return;
   place_set(a.r.x, i, (x[0] - a.root->origin[0]) * il, (x[1] - a.root->origin[1]) * il,
             (x[2] - a.root->origin[2]) * il, (real)(s.h[i] * il), (real)(s.m[i] / a.unit.mass));
   a.r.q[0][i] = quad(v[0] * iv, v[1] * iv, v[2] * iv, s.rho[i] / a.rho);
-  a.r.q[1][i] = quad(s.cs[i] * iv, s.cl[i] * iv, t[0] * it, t[1] * it);
+  a.r.q[1][i] = quad(s.cs[i] * iv, s.cl[i] * iv, s.push[i] * a.rho * it, t[0] * it);
   if (!solid) return;
-  a.r.q[2][i] = quad(t[2] * it, t[3] * it, t[4] * it, t[5] * it);
-  a.r.q[3][i] = quad(t[6] * it, t[7] * it, t[8] * it, 0);
+  a.r.q[2][i] = quad(t[1] * it, t[2] * it, t[3] * it, t[4] * it);
+  a.r.q[3][i] = quad(t[5] * it, t[6] * it, t[7] * it, t[8] * it);
 }
 
 template <int kern, int line, int solid> static __global__ void gradient_loop(Loop a)
@@ -109,13 +109,14 @@ static __device__ PairBody body_get(const Records &r, long i, Place *at)
   *at = place_get(r.x, i, &b.h, &b.m);
   const Quad p = quad_get(r.q[0] + i), q = quad_get(r.q[1] + i);
   b.vx = p.x, b.vy = p.y, b.vz = p.z, b.rho = p.w;
-  b.cs = q.x, b.signal = q.y, b.txx = q.z, b.txy = q.w;
-  b.inverse_m = miscible ? 1 / b.m : 0;
+  b.cs = q.x, b.signal = q.y, b.p = q.z, b.dxx = q.w;
+  b.inverse_m = miscible ? 1 / b.m : 0, b.inverse_rho = solid ? 1 / b.rho : 0;
   if (solid) {
     const Quad u = quad_get(r.q[2] + i), w = quad_get(r.q[3] + i);
-    b.txz = u.x, b.tyx = u.y, b.tyy = u.z, b.tyz = u.w, b.tzx = w.x, b.tzy = w.y, b.tzz = w.z;
+    b.dxy = u.x, b.dxz = u.y, b.dyx = u.z, b.dyy = u.w;
+    b.dyz = w.x, b.dzx = w.y, b.dzy = w.z, b.dzz = w.w;
   } else {
-    b.txz = b.tyx = b.tyy = b.tyz = b.tzx = b.tzy = b.tzz = 0;
+    b.dxy = b.dxz = b.dyx = b.dyy = b.dyz = b.dzx = b.dzy = b.dzz = 0;
   }
   return b;
 }
@@ -208,7 +209,7 @@ static Loop loop_of(const Sim *sim)
   memset(&a, 0, sizeof a);
   a.s = sim->s, a.r = c->loops->r, a.run = c->run, a.root = c->root, a.unit = c->unit;
   a.start = c->lists.start, a.count = c->lists.count, a.list = c->lists.list;
-  a.rho = c->unit.mass / volume, a.push = c->unit.speed * c->unit.speed / a.rho;
+  a.rho = c->unit.mass / volume;
   a.kern = sim->par.kernel;
   return a;
 }
