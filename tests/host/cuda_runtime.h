@@ -189,7 +189,7 @@ cudaError_t launch_checks(const cudaLaunchConfig_t *c, const void *kernel);
 cudaError_t launch_issue(const char *name, const cudaLaunchConfig_t *c, std::function<void()> body);
 cudaError_t launch_attribute(const void *kernel, cudaFuncAttribute attribute, int value);
 cudaError_t symbol(const void *p, size_t bytes); /* a __device__ variable is known from now on */
-bool reachable(const void *p); /* from the device: allocated there, or pinned here */
+bool reachable(const volatile void *p); /* from the device: allocated there, or pinned here */
 /* done: keeps code for cudaGetLastError; returns it. */
 cudaError_t done(cudaError_t code);
 

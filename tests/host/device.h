@@ -121,7 +121,8 @@ T shuffle(const char *op, unsigned mask, T value, int source, int width, bool up
           int line)
 {
   int lane = self->lane, first = lane & ~(width - 1), last = first + width - 1;
-  if (width < 1 || width > 32 || (width & (width - 1))) wrong(file, line, "%s: width %d", op, width);
+  if (width < 1 || width > 32 || (width & (width - 1)))
+    wrong(file, line, "%s: width %d", op, width);
   const Meeting &m = meet(op, mask, bits(value), file, line);
   return from<T>(m, (up ? source < first : source > last) ? lane : source);
 }

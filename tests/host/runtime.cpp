@@ -95,10 +95,10 @@ static const Piece *piece_at(const void *p, size_t bytes)
              : nullptr;
 }
 
-bool host::reachable(const void *p)
+bool host::reachable(const volatile void *p)
 {
   LOCK();
-  return piece_at(p, 0) != nullptr;
+  return piece_at(const_cast<const void *>(p), 0) != nullptr;
 }
 
 cudaError_t host::symbol(const void *p, size_t bytes)

@@ -192,7 +192,8 @@ const Meeting &meet(const char *op, unsigned mask, uint64_t value, const char *f
 {
   Thread *t = self;
   Warp *w = t->warp;
-  if (!(mask >> t->lane & 1)) wrong(file, line, "%s: lane %d not in mask 0x%08x", op, t->lane, mask);
+  if (!(mask >> t->lane & 1))
+    wrong(file, line, "%s: lane %d not in mask 0x%08x", op, t->lane, mask);
   meeting_leave(t);
   size_t k = meeting_find(w, op, mask, file, line);
   Meeting *m = t->meeting = w->open[k];

@@ -29,6 +29,12 @@ struct NullType {
 namespace host_side
 {
 
+template <class N> size_t items(N n)
+{
+  static_assert(std::is_integral<N>::value, "a number of items is an integer, not an enum");
+  return (size_t)n;
+}
+
 template <class It> using value_of = typename std::iterator_traits<It>::value_type;
 
 struct Add {
@@ -157,15 +163,15 @@ struct DeviceRadixSort {
                                      int end = 8 * sizeof(K), cudaStream_t stream = nullptr)       \
   {                                                                                                \
     return host_side::sort_call("SortPairs" #NAME, storage, bytes, keys, keys_out, values,         \
-                                values_out, (size_t)n, begin, end, DOWN, stream);                  \
+                                values_out, host_side::items(n), begin, end, DOWN, stream);        \
   }                                                                                                \
   template <class K, class V, class N>                                                             \
   static cudaError_t SortPairs##NAME(void *storage, size_t &bytes, DoubleBuffer<K> &keys,          \
                                      DoubleBuffer<V> &values, N n, int begin = 0,                  \
                                      int end = 8 * sizeof(K), cudaStream_t stream = nullptr)       \
   {                                                                                                \
-    return host_side::sort_buffers("SortPairs" #NAME, storage, bytes, keys, &values, (size_t)n,    \
-                                   begin, end, DOWN, stream);                                      \
+    return host_side::sort_buffers("SortPairs" #NAME, storage, bytes, keys, &values,               \
+                                   host_side::items(n), begin, end, DOWN, stream);                 \
   }                                                                                                \
   template <class K, class N>                                                                      \
   static cudaError_t SortKeys##NAME(void *storage, size_t &bytes, const K *keys, K *keys_out, N n, \
@@ -174,7 +180,7 @@ struct DeviceRadixSort {
   {                                                                                                \
     const char *none = nullptr;                                                                    \
     return host_side::sort_call("SortKeys" #NAME, storage, bytes, keys, keys_out, none,            \
-                                (char *)nullptr, (size_t)n, begin, end, DOWN, stream);             \
+                                (char *)nullptr, host_side::items(n), begin, end, DOWN, stream);   \
   }                                                                                                \
   template <class K, class N>                                                                      \
   static cudaError_t SortKeys##NAME(void *storage, size_t &bytes, DoubleBuffer<K> &keys, N n,      \
@@ -182,8 +188,8 @@ struct DeviceRadixSort {
                                     cudaStream_t stream = nullptr)                                 \
   {                                                                                                \
     return host_side::sort_buffers("SortKeys" #NAME, storage, bytes, keys,                         \
-                                   (DoubleBuffer<char> *)nullptr, (size_t)n, begin, end, DOWN,     \
-                                   stream);                                                        \
+                                   (DoubleBuffer<char> *)nullptr, host_side::items(n), begin, end, \
+                                   DOWN, stream);                                                  \
   }
   CUB_SORT(, false)
   CUB_SORT(Descending, true)
@@ -195,16 +201,16 @@ struct DeviceScan {
   static cudaError_t ExclusiveScan(void *storage, size_t &bytes, In in, Out out, Op op, T init, N n,
                                    cudaStream_t stream = nullptr)
   {
-    return host_side::two_phase("ExclusiveScan", storage, bytes, (size_t)n, stream, [=] {
-      host_side::scan(in, out, op, init, false, false, (size_t)n);
+    return host_side::two_phase("ExclusiveScan", storage, bytes, host_side::items(n), stream, [=] {
+      host_side::scan(in, out, op, init, false, false, host_side::items(n));
     });
   }
   template <class In, class Out, class Op, class N>
   static cudaError_t InclusiveScan(void *storage, size_t &bytes, In in, Out out, Op op, N n,
                                    cudaStream_t stream = nullptr)
   {
-    return host_side::two_phase("InclusiveScan", storage, bytes, (size_t)n, stream, [=] {
-      host_side::scan(in, out, op, host_side::value_of<In>(), true, true, (size_t)n);
+    return host_side::two_phase("InclusiveScan", storage, bytes, host_side::items(n), stream, [=] {
+      host_side::scan(in, out, op, host_side::value_of<In>(), true, true, host_side::items(n));
     });
   }
   template <class In, class Out, class N>
@@ -227,9 +233,9 @@ struct DeviceReduce {
   static cudaError_t TransformReduce(void *storage, size_t &bytes, In in, Out out, N n, Op op, F f,
                                      T init, cudaStream_t stream = nullptr)
   {
-    return host_side::two_phase("Reduce", storage, bytes, (size_t)n, stream, [=] {
+    return host_side::two_phase("Reduce", storage, bytes, host_side::items(n), stream, [=] {
       T sum = init;
-      for (size_t i = 0; i < (size_t)n; i++) sum = op(sum, f(in[i]));
+      for (size_t i = 0; i < host_side::items(n); i++) sum = op(sum, f(in[i]));
       *out = sum;
     });
   }
@@ -268,7 +274,7 @@ struct DeviceSelect {
   static cudaError_t Flagged(void *storage, size_t &bytes, In in, Flag flags, Out out, Count count,
                              int64_t n, cudaStream_t stream = nullptr)
   {
-    return host_side::two_phase("Flagged", storage, bytes, (size_t)n, stream, [=] {
+    return host_side::two_phase("Flagged", storage, bytes, host_side::items(n), stream, [=] {
       int64_t kept = 0;
       for (int64_t i = 0; i < n; i++)
         if (flags[i]) out[kept++] = in[i];
@@ -279,7 +285,7 @@ struct DeviceSelect {
   static cudaError_t If(void *storage, size_t &bytes, In in, Out out, Count count, int64_t n, F f,
                         cudaStream_t stream = nullptr)
   {
-    return host_side::two_phase("If", storage, bytes, (size_t)n, stream, [=] {
+    return host_side::two_phase("If", storage, bytes, host_side::items(n), stream, [=] {
       int64_t kept = 0;
       for (int64_t i = 0; i < n; i++)
         if (f(in[i])) out[kept++] = in[i];
@@ -290,7 +296,7 @@ struct DeviceSelect {
   static cudaError_t Unique(void *storage, size_t &bytes, In in, Out out, Count count, int64_t n,
                             cudaStream_t stream = nullptr)
   {
-    return host_side::two_phase("Unique", storage, bytes, (size_t)n, stream, [=] {
+    return host_side::two_phase("Unique", storage, bytes, host_side::items(n), stream, [=] {
       int64_t kept = 0;
       for (int64_t i = 0; i < n; i++)
         if (i == 0 || !(in[i] == in[i - 1])) out[kept++] = in[i];
@@ -304,7 +310,7 @@ struct DeviceRunLengthEncode {
   static cudaError_t Encode(void *storage, size_t &bytes, In in, Out out, Length length,
                             Count count, int64_t n, cudaStream_t stream = nullptr)
   {
-    return host_side::two_phase("Encode", storage, bytes, (size_t)n, stream, [=] {
+    return host_side::two_phase("Encode", storage, bytes, host_side::items(n), stream, [=] {
       int64_t runs = 0;
       for (int64_t i = 0; i < n; i++) {
         if (i == 0 || !(in[i] == in[i - 1])) out[runs] = in[i], length[runs++] = 0;
@@ -387,7 +393,7 @@ private:
   void scan(T value, T &out, T &total, bool inclusive, const char *file, int line)
   {
     int place = host_side::place_in_block();
-    T sum = T();
+    T sum = out = T();
     storage.value[place] = value;
     host::barrier("BlockScan", 0, file, line);
     for (int k = 0; k < THREADS * Y * Z; k++) {
@@ -430,7 +436,7 @@ public:
   void ExclusiveSum(T value, T &out, T &total, HOST_SITE)
   {
     int lane = host::self->lane % LANES, first = host::self->lane - lane;
-    T sum = T();
+    T sum = out = T();
     storage.value[lane] = value;
     host::meet("WarpScan", (LANES == 32 ? ~0u : (1u << LANES % 32) - 1) << first, 0, file, line);
     for (int k = 0; k < LANES; k++) {
