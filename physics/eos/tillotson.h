@@ -1,12 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Tillotson (1962), GA-3216; Melosh (1989) app. II. Three states, with eta = rho/rho0, mu = eta -
- * 1, z = rho0/rho - 1 and w = 1 + u/(E0 eta^2): compressed, also cold expanded (rho >= rho0 or u <=
- * Eiv): p = (a + b/w) rho u + A mu + B mu^2            001 eq. 14 expanded (rho < rho0 and u >=
- * Ecv): p = a rho u + (b rho u/w + A mu exp(-beta z)) exp(-alpha z^2)         001 eq. 15 partly
- * vaporised (rho < rho0, Eiv < u < Ecv): linear in u between the two p is continuous in rho > 0 and
- * u; c jumps at the borders, as the slopes of the law do. 001's "u > Ecv" alone for eq. 15 would
- * put dense hot matter into the expanded state. c is that of the p used, in the partly vaporised
- * state with the slope of the weight. */
+/* Tillotson (1962), GA-3216; Melosh (1989) app. II. With eta = rho/rho0, mu = eta - 1,
+ * z = rho0/rho - 1 and w = 1 + u/(E0 eta^2) there are three states:
+ *
+ *   compressed, also cold expanded (rho >= rho0 or u <= Eiv), 001 eq. 14:
+ *     p = (a + b/w) rho u + A mu + B mu^2
+ *   expanded (rho < rho0 and u >= Ecv), 001 eq. 15:
+ *     p = a rho u + (b rho u/w + A mu exp(-beta z)) exp(-alpha z^2)
+ *   partly vaporised (rho < rho0 and Eiv < u < Ecv):
+ *     linear in u between the two
+ *
+ * p is continuous in rho > 0 and u; c jumps at the borders, as the slopes of the law do. 001's
+ * "u > Ecv" alone for eq. 15 would put dense hot matter into the expanded state. c is that of the p
+ * used, in the partly vaporised state with the slope of the weight. */
 #ifndef EOS_TILLOTSON_H
 #define EOS_TILLOTSON_H
 
