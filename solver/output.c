@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The files of a run directory. */
 #include <errno.h>
+#include <fcntl.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include "../lib/snap.h"
 #include "../lib/spool.h"
@@ -21,32 +23,39 @@ static void name_of(const char *dir, const char *name, char *path, size_t size)
   snprintf(path, size, "%s/%s", dir, name);
 }
 
-static int open_texts(Output *o, Err *err)
+int output_claim(Output *o, const char *dir, Err *err)
 {
+  struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET}; /* all of it */
   char path[4096];
-  name_of(o->dir, "conserved.tsv", path, sizeof path);
-  if (!(o->conserved = fopen(path, "a")))
-    return err_set(err, "cannot write '%s': %s", path, strerror(errno));
-  name_of(o->dir, "run.log", path, sizeof path);
+  memset(o, 0, sizeof *o);
+  snprintf(o->dir, sizeof o->dir, "%s", dir);
+  if (mkdir(dir, 0777) && errno != EEXIST)
+    return err_set(err, "cannot make '%s': %s", dir, strerror(errno));
+  name_of(dir, "run.log", path, sizeof path);
   if (!(o->log = fopen(path, "a")))
     return err_set(err, "cannot write '%s': %s", path, strerror(errno));
+  if (!fcntl(fileno(o->log), F_SETLK, &lock)) return 0;
+  if (errno == EACCES || errno == EAGAIN) {
+    output_close(o);
+    return err_set(err, "another solver is at work in '%s'", dir);
+  }
+  err_warn("cannot lock '%s': %s: a second solver would not be kept out", path, strerror(errno));
   return 0;
 }
 
-static void settle(Output *o, const char *dir, double start, double every, double end)
+/* Opens conserved.tsv to go on at its end. */
+static int open_conserved(Output *o, const char *path, Err *err)
 {
-  memset(o, 0, sizeof *o);
-  snprintf(o->dir, sizeof o->dir, "%s", dir);
-  o->start = start, o->every = every, o->end = end;
+  if ((o->conserved = fopen(path, "a"))) return 0;
+  return err_set(err, "cannot write '%s': %s", path, strerror(errno));
 }
 
-int output_open(Output *o, const char *dir, double start, double every, double end, Err *err)
+int output_open(Output *o, double start, double every, double end, Err *err)
 {
   char path[4096];
-  settle(o, dir, start, every, end);
-  name_of(dir, "conserved.tsv", path, sizeof path);
-  if (spool_text(path, HEADER, err)) return -1;
-  return open_texts(o, err);
+  o->start = start, o->every = every, o->end = end;
+  name_of(o->dir, "conserved.tsv", path, sizeof path);
+  return spool_text(path, HEADER, err) ? -1 : open_conserved(o, path, err);
 }
 
 /* Keeps the header and the lines up to `step`. */
@@ -73,16 +82,14 @@ static int truncate_conserved(const char *path, long step, Err *err)
   return rc;
 }
 
-int output_resume(Output *o, const char *dir, double start, double every, double end,
-                  const Sim *sim, Err *err)
+int output_resume(Output *o, double start, double every, double end, const Sim *sim, Err *err)
 {
   char path[4096];
-  settle(o, dir, start, every, end);
+  o->start = start, o->every = every, o->end = end;
   while (output_due(o) <= sim->time && output_due(o) < end) o->next++;
   if (sim->time >= end) o->next++;
-  name_of(dir, "conserved.tsv", path, sizeof path);
-  if (truncate_conserved(path, sim->step, err)) return -1;
-  return open_texts(o, err);
+  name_of(o->dir, "conserved.tsv", path, sizeof path);
+  return truncate_conserved(path, sim->step, err) ? -1 : open_conserved(o, path, err);
 }
 
 void output_close(Output *o)

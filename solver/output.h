@@ -14,11 +14,14 @@ typedef struct {
   FILE *conserved, *log;
 } Output;
 
-/* output_open: a fresh directory. output_resume: one that is continued: lines of conserved.tsv
- * behind the checkpoint are dropped. */
-int output_open(Output *o, const char *dir, double start, double every, double end, Err *err);
-int output_resume(Output *o, const char *dir, double start, double every, double end,
-                  const Sim *sim, Err *err);
+/* output_claim: makes the directory if need be and opens run.log there, locked: one solver a
+ * directory. The kernel lets go of the lock when the process ends, however it does. */
+int output_claim(Output *o, const char *dir, Err *err);
+
+/* output_open: a fresh run in the directory claimed. output_resume: one that is continued: lines of
+ * conserved.tsv behind the checkpoint are dropped. */
+int output_open(Output *o, double start, double every, double end, Err *err);
+int output_resume(Output *o, double start, double every, double end, const Sim *sim, Err *err);
 void output_close(Output *o);
 
 /* output_due: the time of the next snapshot [s]. */

@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The run loop: steps, snapshots, checkpoints, stopping. What is written is in output.c. */
-#include <errno.h>
 #include <math.h>
 #include <signal.h>
 #include <string.h>
-#include <sys/stat.h>
 #include "../lib/progress.h"
 #include "../lib/snap.h"
 #include "../lib/unit.h"
@@ -37,14 +35,20 @@ typedef struct {
   Progress bar;
 } Run;
 
+/* Looked at before the work of a start, and again when no other solver can change the answer. */
+static int vacant(const RunOptions *o, Err *err)
+{
+  if (o->restart || !output_in_use(o->dir)) return 0;
+  return err_set(err, "'%s' holds a run already: --restart continues it", o->dir);
+}
+
 static int fresh(Run *r, const Param *par, Err *err)
 {
   if (part_history(r->parts, r->o->command, err) || param_record(par, r->parts, err)) return -1;
   if (part_set_number(r->parts, "run", "StartTime", r->parts->time, err)) return -1;
   if (sim_open(&r->sim, par, r->parts, r->o->device, err)) return -1;
-  if (mkdir(r->o->dir, 0777) && errno != EEXIST)
-    return err_set(err, "cannot make '%s': %s", r->o->dir, strerror(errno));
-  if (output_open(&r->out, r->o->dir, r->parts->time, r->o->every, r->o->end, err)) return -1;
+  if (output_claim(&r->out, r->o->dir, err) || vacant(r->o, err)) return -1;
+  if (output_open(&r->out, r->parts->time, r->o->every, r->o->end, err)) return -1;
   output_log(&r->out, "%s %ld particles, %dD, %d material(s), %s on %s", r->o->command, r->parts->n,
              r->parts->dimension, r->parts->materials, integrator_of(par->integrator)->about,
              r->sim.b->name);
@@ -76,7 +80,8 @@ static int resume(Run *r, const Param *par, Parts *checkpoint, Err *err)
   if (same_run(checkpoint, par, r->parts, err)) return -1;
   r->parts = checkpoint;
   if (sim_restart(&r->sim, par, checkpoint, r->o->device, err)) return -1;
-  if (output_resume(&r->out, r->o->dir, start, r->o->every, r->o->end, &r->sim, err)) return -1;
+  if (output_claim(&r->out, r->o->dir, err)) return -1;
+  if (output_resume(&r->out, start, r->o->every, r->o->end, &r->sim, err)) return -1;
   output_log(&r->out, "continued from step %ld, t = %.9g s", r->sim.step, r->sim.time);
   return 0;
 }
@@ -138,8 +143,7 @@ int run_system(const RunOptions *o, const Param *par, Parts *parts, Err *err)
   memset(&r, 0, sizeof r);
   r.o = o, r.parts = parts, r.began = r.saved = progress_clock();
   if (o->restart && output_find_checkpoint(o->dir, &checkpoint, err)) return -1;
-  if (!checkpoint && !o->restart && output_in_use(o->dir))
-    return err_set(err, "'%s' holds a run already: --restart continues it", o->dir);
+  if (vacant(o, err)) return -1;
   catch_signals();
   rc = checkpoint ? resume(&r, par, checkpoint, err) : fresh(&r, par, err);
   r.first_step = r.sim.step;

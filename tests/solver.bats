@@ -101,6 +101,35 @@ like_whole() {
   like_whole
 }
 
+@test "one solver a folder: a second one is refused until the first is gone, however it went" {
+  begin &
+  pid=$!
+  while [ ! -s run/checkpoint.h5 ]; do sleep .02; done
+  kill -STOP $pid
+  cp run/run.log log
+  refused=0
+  bad 1 "another solver is at work in 'run'" solver -c ../run.cfg -o run --end +3000s --every 300s --restart ../s.h5 || refused=$?
+  bad 1 "holds a run already" solver -o run --end +3000s ../s.h5 || refused=$?
+  kill -9 $pid
+  wait $pid || true
+  [ $refused = 0 ]
+  cmp log run/run.log
+  go --restart
+  like_whole
+}
+
+@test "two solvers at once in a new folder: one of them runs" {
+  begin 2>first &
+  a=0 b=0
+  go 2>second || b=$?
+  wait $! || a=$?
+  [ $((a + b)) = 1 ]
+  cat first second
+  [ "$(cat first second | grep -cxF -e "solver: another solver is at work in 'run'" \
+    -e "solver: 'run' holds a run already: --restart continues it")" = 1 ]
+  like_whole
+}
+
 @test "a time step that collapses: id, state, last good checkpoint" {
   bad 1 "time step collapsed to" solver -o run --end +3000s -s step.min=1.8 -s output.checkpoint_every=0 ../s.h5
   [[ $output == *": particle "*" of body "*"rho "*"neighbours; the last good checkpoint is 'run/checkpoint.h5'" ]]
