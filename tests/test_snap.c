@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Snapshots: what is written comes back bit by bit, for every row of the table; the layout that
  * other readers need (ecosystem: yt, pynbody, ParaView), checked through HDF5 itself. */
-#include <dirent.h>
 #include <math.h>
 #include <setjmp.h>
 #include <signal.h>
@@ -20,47 +19,9 @@
 
 #include <hdf5.h>
 
-#include "lib/snap.h"
+#include "snaps.h"
 
 enum { N = 300 };
-static char folder[4096]; /* of one test */
-
-static int setup(void **state)
-{
-  (void)state;
-  const char *temporary = getenv("TMPDIR");
-  snprintf(folder, sizeof folder, "%s/breccia-snap.XXXXXX", temporary ? temporary : "/tmp");
-  return mkdtemp(folder) && !chdir(folder) ? 0 : -1;
-}
-
-static int teardown(void **state)
-{
-  (void)state;
-  char command[4200];
-  snprintf(command, sizeof command, "rm -rf '%s'", folder);
-  return chdir("/") || system(command);
-}
-
-static int files(void)
-{
-  int n = 0;
-  DIR *dir = opendir(folder);
-  for (struct dirent *e; (e = readdir(dir));)
-    n += strcmp(e->d_name, ".") && strcmp(e->d_name, "..");
-  closedir(dir);
-  return n;
-}
-
-/* Any bits, but no NaN: they are compared as bytes, and by others as numbers. */
-static void fill(void *array, size_t size, uint64_t *seed)
-{
-  unsigned char *byte = array;
-  for (size_t i = 0; i < size; i++) {
-    *seed = *seed * 6364136223846793005u + 1442695040888963407u; /* Knuth, MMIX */
-    byte[i] = i % 8 == 7 ? 0x3f : (unsigned char)(*seed >> 56);
-  }
-}
-
 static void add_extra(Parts *p, const char *name, hid_t type, int rank, int a, int b,
                       uint64_t *seed)
 {
@@ -72,7 +33,7 @@ static void add_extra(Parts *p, const char *name, hid_t type, int rank, int a, i
   x->width = (rank > 1 ? a : 1) * (rank > 2 ? b : 1);
   x->size = x->width * (int)H5Tget_size(type);
   x->data = calloc((size_t)p->n, (size_t)x->size);
-  fill(x->data, (size_t)p->n * (size_t)x->size, seed);
+  snaps_fill(x->data, (size_t)p->n * (size_t)x->size, seed);
 }
 
 static void add_extras(Parts *p, uint64_t *seed)
@@ -90,15 +51,6 @@ static void add_extras(Parts *p, uint64_t *seed)
   H5Tclose(pair);
 }
 
-static Parts *bare(long n)
-{
-  Err err;
-  Parts *p = part_new(n);
-  part_add(p, "id x v m rho u", &err);
-  for (long i = 0; i < n; i++) p->id[i] = i, p->m[i] = 1;
-  return p;
-}
-
 static Parts *sample(void)
 {
   Err err;
@@ -106,12 +58,12 @@ static Parts *sample(void)
   Parts *p = part_new(N);
   for (const PartField *f = part_fields; f < part_fields + part_field_count; f++) {
     part_add(p, f->member, &err);
-    fill(part_array(p, f), (size_t)N * (size_t)f->size, &seed);
+    snaps_fill(part_array(p, f), (size_t)N * (size_t)f->size, &seed);
   }
   p->nflaw = calloc(N, sizeof *p->nflaw);
   for (long i = 0; i < N; i++) p->flaws += p->nflaw[i] = (int32_t)(i % 5);
   p->flaw = calloc((size_t)p->flaws, sizeof *p->flaw);
-  fill(p->flaw, (size_t)p->flaws * sizeof *p->flaw, &seed);
+  snaps_fill(p->flaw, (size_t)p->flaws * sizeof *p->flaw, &seed);
   add_extras(p, &seed);
   p->dimension = 2, p->time = -12.5;
   part_add_material(p, "ice", "# \xc3\xa4rgerlich\nrho0 = 917.;\n", &err);
@@ -178,7 +130,7 @@ static void all_comes_back(void **state)
   assert_memory_equal(q->flaw, p->flaw, (size_t)p->flaws * sizeof *p->flaw);
   assert_extras_equal(q, p);
   assert_names_equal(q, p);
-  assert_int_equal(files(), 1);
+  assert_int_equal(folder_files(), 1);
   part_free(p);
   part_free(q);
 }
@@ -187,7 +139,7 @@ static void what_is_absent_stays_absent(void **state)
 {
   (void)state;
   Err err;
-  Parts *p = bare(3);
+  Parts *p = snaps_bare(3);
   part_add(p, "a delta", &err);
   assert_int_equal(snap_write(p, "a.h5", 0, &err), 0);
   Parts *q = snap_read("a.h5", &err);
@@ -232,9 +184,9 @@ static void many_chunks_give_the_same_bytes(void **state)
 {
   (void)state;
   Err err;
-  Parts *p = bare(150000);
+  Parts *p = snaps_bare(150000);
   uint64_t seed = 3;
-  fill(p->x, (size_t)p->n * 24, &seed);
+  snaps_fill(p->x, (size_t)p->n * 24, &seed);
   assert_int_equal(snap_write(p, "a.h5", 0, &err), 0);
   Parts *q = snap_read("a.h5", &err);
   assert_memory_equal(q->x, p->x, (size_t)p->n * 24);
@@ -373,7 +325,7 @@ static void series_leads_to_the_snapshots(void **state)
   const char *name[] = {"snap_0000.h5", "snap_0001.h5"};
   const double time[] = {0, 60};
   mkdir("run", 0700);
-  Parts *p = bare(N);
+  Parts *p = snaps_bare(N);
   for (int k = 0; k < 2; k++) {
     char path[64];
     snprintf(path, sizeof path, "run/%s", name[k]);
@@ -407,7 +359,7 @@ static void bad_output_is_refused(void **state)
 {
   (void)state;
   Err err;
-  Parts *p = bare(2), *none = part_new(0);
+  Parts *p = snaps_bare(2), *none = part_new(0);
   assert_int_equal(snap_write(none, "a.h5", 0, &err), -1);
   assert_text(err.text, "cannot write 'a.h5': no particles");
   assert_int_equal(snap_write(p, "none/a.h5", 0, &err), -1);
@@ -417,7 +369,7 @@ static void bad_output_is_refused(void **state)
   free(p->x), p->x = NULL;
   assert_int_equal(snap_write(p, "a.h5", 0, &err), -1);
   assert_text(err.text, "'a.h5' lacks field 'Coordinates' (made by mksphere)");
-  assert_int_equal(files(), 0);
+  assert_int_equal(folder_files(), 0);
   part_free(p);
   part_free(none);
 }
@@ -437,7 +389,7 @@ static int write_in(const Parts *p, rlim_t room)
   setrlimit(RLIMIT_FSIZE, &old);
   if (strncmp(err.text, "cannot write 'a.h5': ", 21) || !strstr(err.text, "File too large"))
     return 2;
-  if (files()) return 3;
+  if (folder_files()) return 3;
   if (snap_write(p, "b.h5", 0, &err)) return 4;
   Parts *q = snap_read("b.h5", &err);
   return q && !memcmp(q->v, p->v, (size_t)p->n * 24) && !remove("b.h5") ? 0 : 5;
@@ -449,9 +401,9 @@ static void full_disk_leaves_nothing(void **state)
   (void)state;
   Err err;
   struct stat st;
-  Parts *p = bare(20000);
+  Parts *p = snaps_bare(20000);
   uint64_t seed = 5;
-  fill(p->x, (size_t)p->n * 24, &seed), fill(p->v, (size_t)p->n * 24, &seed);
+  snaps_fill(p->x, (size_t)p->n * 24, &seed), snaps_fill(p->v, (size_t)p->n * 24, &seed);
   assert_int_equal(snap_write(p, "a.h5", 0, &err), 0);
   stat("a.h5", &st);
   remove("a.h5");
@@ -469,7 +421,7 @@ static void full_disk_leaves_nothing(void **state)
 int main(void)
 {
   H5dont_atexit(); /* as lib/hdf.c does, before anything else initialises HDF5 */
-#define T(NAME) cmocka_unit_test_setup_teardown(NAME, setup, teardown)
+#define T(NAME) cmocka_unit_test_setup_teardown(NAME, folder_setup, folder_teardown)
   const struct CMUnitTest tests[] = {
       T(all_comes_back),
       T(what_is_absent_stays_absent),

@@ -14,43 +14,7 @@
 
 #include <hdf5.h>
 
-#include "lib/snap.h"
-
-static char folder[4096]; /* of one test */
-
-static int setup(void **state)
-{
-  (void)state;
-  const char *temporary = getenv("TMPDIR");
-  snprintf(folder, sizeof folder, "%s/breccia-snap.XXXXXX", temporary ? temporary : "/tmp");
-  return mkdtemp(folder) && !chdir(folder) ? 0 : -1;
-}
-
-static int teardown(void **state)
-{
-  (void)state;
-  char command[4200];
-  snprintf(command, sizeof command, "rm -rf '%s'", folder);
-  return chdir("/") || system(command);
-}
-
-static void fill(void *array, size_t size, uint64_t *seed)
-{
-  unsigned char *byte = array;
-  for (size_t i = 0; i < size; i++) {
-    *seed = *seed * 6364136223846793005u + 1442695040888963407u; /* Knuth, MMIX */
-    byte[i] = i % 8 == 7 ? 0x3f : (unsigned char)(*seed >> 56);
-  }
-}
-
-static Parts *bare(long n)
-{
-  Err err;
-  Parts *p = part_new(n);
-  part_add(p, "id x v m rho u", &err);
-  for (long i = 0; i < n; i++) p->id[i] = i, p->m[i] = 1;
-  return p;
-}
+#include "snaps.h"
 
 static void assert_text(const char *a, const char *b) { assert_string_equal(a, b); }
 
@@ -69,7 +33,7 @@ static void no_snapshots(void **state)
   (void)state;
   Err err;
   struct stat st;
-  Parts *p = bare(2000);
+  Parts *p = snaps_bare(2000);
   assert_null(snap_read("none", &err));
   assert_text(err.text, "cannot open 'none': No such file or directory");
   assert_unreadable(".", "Is a directory");
@@ -132,7 +96,7 @@ static void set_attribute(hid_t f, const char *object, const char *name, hsize_t
 static void damaged_header(void **state)
 {
   (void)state;
-  Parts *p = bare(10);
+  Parts *p = snaps_bare(10);
   DAMAGED(H5Ldelete(f, "PartType0", H5P_DEFAULT), "no snapshot: lacks group 'PartType0'");
   DAMAGED(set_attribute(f, "Header", "FormatVersion", 0, 0), "lacks attribute 'FormatVersion'");
   DAMAGED(set_attribute(f, "Header", "FormatVersion", 1, 2),
@@ -150,7 +114,7 @@ static void damaged_fields(void **state)
 {
   (void)state;
   const hid_t real = H5T_NATIVE_DOUBLE, whole = H5T_NATIVE_INT;
-  Parts *p = bare(10);
+  Parts *p = snaps_bare(10);
   DAMAGED(replace(f, "Masses", real, 9, 0), "field 'Masses': has 9 rows for 10 particles");
   DAMAGED(replace(f, "Coordinates", real, 10, 2), "field 'Coordinates': has not 3 columns");
   DAMAGED(replace(f, "Coordinates", real, 10, 0), "field 'Coordinates': has not 3 columns");
@@ -172,7 +136,7 @@ static void damaged_fields(void **state)
 static void whole_numbers_must_fit(void **state)
 {
   (void)state;
-  Parts *p = bare(1);
+  Parts *p = snaps_bare(1);
   const int64_t big = (int64_t)1 << 40;
   DAMAGED(
       {
@@ -188,7 +152,7 @@ static void whole_numbers_must_fit(void **state)
 static void what_holds_pointers_is_refused(void **state)
 {
   (void)state;
-  Parts *p = bare(2);
+  Parts *p = snaps_bare(2);
   hid_t text = H5Tcopy(H5T_C_S1), list = H5Tvlen_create(H5T_NATIVE_INT);
   H5Tset_size(text, H5T_VARIABLE);
   const char *reason = "field 'Odd': is of variable length or a reference, cannot be carried";
@@ -205,9 +169,9 @@ static void damaged_data(void **state)
 {
   (void)state;
   Err err;
-  Parts *p = bare(20000);
+  Parts *p = snaps_bare(20000);
   uint64_t seed = 9;
-  fill(p->x, (size_t)p->n * 24, &seed);
+  snaps_fill(p->x, (size_t)p->n * 24, &seed);
   assert_int_equal(snap_write(p, "a.h5", 0, &err), 0);
   hid_t f = H5Fopen("a.h5", H5F_ACC_RDONLY, H5P_DEFAULT);
   hid_t d = H5Dopen2(f, "PartType0/Coordinates", H5P_DEFAULT);
@@ -238,7 +202,7 @@ static void damaged_groups_lose_no_field(void **state)
   static const char *const mark[] = {"TREE", "SNOD", "HEAP", "OHDR"};
   static char data[1 << 18];
   int marks = 0, refused = 0;
-  Parts *p = bare(10);
+  Parts *p = snaps_bare(10);
   assert_int_equal(snap_write(p, "a.h5", 0, &err), 0);
   FILE *file = fopen("a.h5", "rb");
   size_t size = fread(data, 1, sizeof data, file);
@@ -284,7 +248,7 @@ static void what_h5py_writes_is_read(void **state)
 {
   (void)state;
   Err err = {""};
-  Parts *p = bare(4);
+  Parts *p = snaps_bare(4);
   assert_int_equal(snap_write(p, "a.h5", 0, &err), 0);
   hid_t f = H5Fopen("a.h5", H5F_ACC_RDWR, H5P_DEFAULT);
   H5Ldelete(f, "Materials", H5P_DEFAULT);
@@ -313,7 +277,7 @@ static void what_h5py_writes_is_read(void **state)
 int main(void)
 {
   H5dont_atexit(); /* as lib/hdf.c does, before anything else initialises HDF5 */
-#define T(NAME) cmocka_unit_test_setup_teardown(NAME, setup, teardown)
+#define T(NAME) cmocka_unit_test_setup_teardown(NAME, folder_setup, folder_teardown)
   const struct CMUnitTest tests[] = {
       T(no_snapshots),
       T(damaged_header),

@@ -2,7 +2,6 @@
 /* Whole or not at all: what is left in the folder after success, failure and a killed predecessor;
  * streams, devices and pipes. */
 #define _XOPEN_SOURCE 700
-#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <setjmp.h>
@@ -19,34 +18,15 @@
 #include <unistd.h>
 #include <cmocka.h>
 
+#include "folder.h"
 #include "lib/spool.h"
 
-static char folder[4096]; /* of one test */
 static const char *given; /* $TMPDIR as main found it; the tests set it to their folder */
 
 static int setup(void **state)
 {
-  (void)state;
-  snprintf(folder, sizeof folder, "%s/breccia-spool.XXXXXX", given ? given : "/tmp");
-  return mkdtemp(folder) && !chdir(folder) && !setenv("TMPDIR", folder, 1) ? 0 : -1;
-}
-
-static int files(void)
-{
-  int n = 0;
-  DIR *dir = opendir(folder);
-  for (struct dirent *e; (e = readdir(dir));)
-    n += strcmp(e->d_name, ".") && strcmp(e->d_name, "..");
-  closedir(dir);
-  return n;
-}
-
-static int teardown(void **state)
-{
-  (void)state;
-  char command[4200];
-  snprintf(command, sizeof command, "rm -rf '%s'", folder);
-  return chdir("/") || system(command);
+  int failed = given ? setenv("TMPDIR", given, 1) : unsetenv("TMPDIR");
+  return failed || folder_setup(state) || setenv("TMPDIR", folder, 1) ? -1 : 0;
 }
 
 static void assert_content(const char *path, const char *text)
@@ -79,7 +59,7 @@ static void text_appears_whole_and_alone(void **state)
   assert_int_equal(st.st_mode & 0777, 0640);
   assert_int_equal(spool_text("a.tsv", "3", &err), 0);
   assert_content("a.tsv", "3");
-  assert_int_equal(files(), 1);
+  assert_int_equal(folder_files(), 1);
 }
 
 static void target_is_untouched_until_commit(void **state)
@@ -94,12 +74,12 @@ static void target_is_untouched_until_commit(void **state)
   spool_abort(&s);
   spool_abort(&s);
   assert_content("a", "old");
-  assert_int_equal(files(), 1);
+  assert_int_equal(folder_files(), 1);
   assert_int_equal(spool_out(&s, "a", 1, &err), 0);
   assert_int_equal(write(s.fd, "new", 3), 3);
   assert_int_equal(spool_commit(&s, &err), 0);
   assert_content("a", "new");
-  assert_int_equal(files(), 1);
+  assert_int_equal(folder_files(), 1);
 }
 
 /* The process number of a child that is gone. */
@@ -125,7 +105,7 @@ static void waste_of_the_dead_is_swept(void **state)
   assert_int_equal(spool_text("a", "x", &err), 0);
   assert_int_not_equal(access(waste, F_OK), 0);
   assert_int_equal(access(alive, F_OK) | access(other, F_OK) | access(user, F_OK), 0);
-  assert_int_equal(files(), 4);
+  assert_int_equal(folder_files(), 4);
 }
 
 static void links_are_followed(void **state)
@@ -143,10 +123,10 @@ static void links_are_followed(void **state)
 static void assert_no_text(const char *path, const char *message)
 {
   Err err;
-  int before = files();
+  int before = folder_files();
   assert_int_equal(spool_text(path, "x", &err), -1);
   assert_string_equal(err.text, message);
-  assert_int_equal(files(), before);
+  assert_int_equal(folder_files(), before);
 }
 
 static void bad_targets_are_refused(void **state)
@@ -170,7 +150,7 @@ static void full_disk_leaves_nothing(void **state)
   few.rlim_max = old.rlim_max;
   setrlimit(RLIMIT_FSIZE, &few);
   Err err;
-  int rc = spool_text("a", "longer than five bytes", &err), n = files();
+  int rc = spool_text("a", "longer than five bytes", &err), n = folder_files();
   setrlimit(RLIMIT_FSIZE, &old);
   assert_int_equal(rc, -1);
   assert_string_equal(err.text, "cannot write 'a': File too large");
@@ -189,7 +169,7 @@ static void devices_and_pipes_are_written_through(void **state)
   assert_int_equal(read(fd, got, sizeof got), 7);
   assert_string_equal(got, "through");
   close(fd);
-  assert_int_equal(files(), 1);
+  assert_int_equal(folder_files(), 1);
 }
 
 /* Runs body with descriptor `std` being fd; what the body asserts it must return. */
@@ -216,7 +196,7 @@ static void stdout_is_written_through(void **state)
   assert_content("a", "through");
   assert_int_equal(with(1, open("/dev/full", O_WRONLY), text_to_stdout, dash, &err), -1);
   assert_string_equal(err.text, "cannot write 'stdout': No space left on device");
-  assert_int_equal(files(), 1);
+  assert_int_equal(folder_files(), 1);
 }
 
 /* spool_in for stdin; 1: *out is temporary, 0: not, -1: error. */
@@ -270,7 +250,7 @@ static void bad_stdin_is_refused(void **state)
   setenv("TMPDIR", "none", 1);
   assert_int_equal(with(0, pipe_with("x"), in_stdin, out, &err), -1);
   assert_non_null(strstr(err.text, "cannot make a temporary file 'none/"));
-  assert_int_equal(files(), 0);
+  assert_int_equal(folder_files(), 0);
 }
 
 static void assert_no_input(const char *path, const char *message)
@@ -309,7 +289,7 @@ int main(void)
 {
   char kept[2048];
   if (getenv("TMPDIR")) given = strncat(strcpy(kept, ""), getenv("TMPDIR"), sizeof kept - 1);
-#define T(NAME) cmocka_unit_test_setup_teardown(NAME, setup, teardown)
+#define T(NAME) cmocka_unit_test_setup_teardown(NAME, setup, folder_teardown)
   const struct CMUnitTest tests[] = {
       T(text_appears_whole_and_alone),
       T(target_is_untouched_until_commit),
