@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Elastic solids: wave speeds, a rotating sphere that keeps its angular
- * momentum, which it loses without the corrected gradient and its adjoint; stress carried by rotation and by
- * simple shear (docs/theory.md 2.3, 3.2). */
+ * momentum, which it loses without the corrected gradient and its adjoint; stress carried by
+ * rotation and by simple shear (docs/theory.md 2.3, 2.4, 3.2). */
 #include "lab.h"
 
 static const char BASALT[] =
