@@ -18,6 +18,9 @@ struct integrator {
    * the rates for the next step and sim->dt at the step that the scheme's own error control allows
    * (INFINITY: none). */
   int (*step)(Sim *sim, double *dt, Err *err);
+  /* potential: phi at the state that step has reached; changes nothing that a later step reads.
+   * NULL: step leaves it so. */
+  int (*potential)(Sim *sim, Err *err);
 };
 
 #define INTEGRATOR_EXTERN(WORD, NAME) extern const struct integrator integrator_##NAME;

@@ -108,7 +108,7 @@ double output_due(const Output *o)
 int output_conserved(Output *o, Sim *sim, const SimStep *done, Err *err)
 {
   Sums s;
-  if (sim->b->sums(sim, &s, err)) return -1;
+  if (sim_sums(sim, &s, err)) return -1;
   fprintf(o->conserved, "%ld\t%.9g\t%.6g\t%s\t%lld\t%.12g\t%.12g\t%.12g\t%.12g", sim->step,
           sim->time, done ? done->dt : 0, done ? sim_limit_name(done->limit) : "start",
           done ? (long long)done->id : -1LL, s.kinetic, s.internal, s.potential,

@@ -159,6 +159,12 @@ int sim_advance(Sim *sim, double until, SimStep *done, Err *err)
   return 0;
 }
 
+int sim_sums(Sim *sim, Sums *out, Err *err)
+{
+  const struct integrator *in = integrator_of(sim->par.integrator);
+  return (in->potential && in->potential(sim, err)) || sim->b->sums(sim, out, err) ? -1 : 0;
+}
+
 int sim_send(Sim *sim, Parts *p, Err *err)
 {
   Limits l;

@@ -31,6 +31,9 @@ typedef struct {
  * finite, density or h not positive, step collapsed. */
 int sim_advance(Sim *sim, double until, SimStep *done, Err *err);
 
+/* sim_sums: the sums over all particles, energies and all of the present state. */
+int sim_sums(Sim *sim, Sums *out, Err *err);
+
 /* sim_limit_name: the word for conserved.tsv and the log. */
 const char *sim_limit_name(int limit);
 

@@ -77,7 +77,7 @@ static inline void lab_store(Sim *sim, Parts *p)
 static inline void lab_sums(Sim *sim, Sums *out)
 {
   Err err;
-  if (sim->b->sums(sim, out, &err)) fail_msg("%s", err.text);
+  if (sim_sums(sim, out, &err)) fail_msg("%s", err.text);
 }
 
 /* lab_lattice: positions of a cubic lattice of spacing dx whose points satisfy inside(x, data);

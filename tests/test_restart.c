@@ -112,10 +112,12 @@ static void restart(void **state)
     Param par = settings(&cases[k]);
     int before = 20 + (int)(30 * rng_uniform(5, k, 0));
     Sim sim, again;
+    Sums unused;
     Err err;
     lab_open(&sim, &par, p);
     steps(&sim, before);
     lab_store(&sim, q);
+    lab_sums(&sim, &unused); /* which changes nothing */
     steps(&sim, 50);
     lab_store(&sim, p);
     if (sim_restart(&again, &par, q, lab_device(), &err)) fail_msg("%s", err.text);

@@ -34,4 +34,4 @@ static int step(Sim *sim, double *dt, Err *err)
 }
 
 const struct integrator integrator_leapfrog = {
-    "leapfrog", "staggered leapfrog, one evaluation a step", 0, start, step};
+    "leapfrog", "staggered leapfrog, one evaluation a step", 0, start, step, NULL};

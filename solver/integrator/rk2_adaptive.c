@@ -79,6 +79,20 @@ static int step(Sim *sim, double *dt, Err *err)
   return 0;
 }
 
+/* The last evaluation was at the third stage, not at the combination that is kept. Only phi and work
+ * arrays change: the next evaluation begins with the same order, tree and lists. */
+static int potential(Sim *sim, Err *err)
+{
+  Step k = sim_step(sim, 0);
+  if (sim->par.gravity == PARAM_NONE) return 0;
+  sim->b->pass(sim, PASS_STILL, &k);
+  return sim->b->search(sim, err) || sim->b->gravity(sim, err) ? -1 : 0;
+}
+
 const struct integrator integrator_rk2_adaptive = {
-    "rk2-adaptive", "embedded Runge-Kutta 3(2) with error control, three evaluations a step", 4,
-    start, step};
+    "rk2-adaptive",
+    "embedded Runge-Kutta 3(2) with error control, three evaluations a step",
+    4,
+    start,
+    step,
+    potential};
