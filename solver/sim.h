@@ -8,8 +8,8 @@
 /* SIM_FIELDS: what the solver needs of its input. */
 #define SIM_FIELDS "id x v m rho u h mat body"
 
-/* sim_open: checks what the solver needs (SIM_FIELDS; density floor, units), parses
- * the materials, gives the particles to the backend named by device ("auto", "cpu", "cuda", "cuda:K") and, unless
+/* sim_open: checks what the solver needs (SIM_FIELDS; density floor, units), parses the materials,
+ * gives the particles to the backend named by device ("auto", "cpu", "cuda", "cuda:K") and, unless
  * parts come from a checkpoint, evaluates the first rates. parts stays the caller's. Returns 0 or
  * -1. */
 int sim_open(Sim *sim, const Param *par, const Parts *parts, const char *device, Err *err);

@@ -121,8 +121,8 @@ static void leapfrog(void **state)
   assert_true(d[2].apsis < 2e-4 && d[2].energy < 1e-6);
 }
 
-/* The sums of a row are of one instant, the state's own, however long the steps; and asking for them
- * changes no bit of the orbit. */
+/* The sums of a row are of one instant, the state's own, however long the steps; and asking for
+ * them changes no bit of the orbit. */
 static void one_instant(void **state)
 {
   static const char *const methods[] = {"gravity.method=direct", "gravity.method=tree"};

@@ -79,8 +79,8 @@ static int step(Sim *sim, double *dt, Err *err)
   return 0;
 }
 
-/* The last evaluation was at the third stage, not at the combination that is kept. Only phi and work
- * arrays change: the next evaluation begins with the same order, tree and lists. */
+/* The last evaluation was at the third stage, not at the combination that is kept. Only phi and
+ * work arrays change: the next evaluation begins with the same order, tree and lists. */
 static int potential(Sim *sim, Err *err)
 {
   Step k = sim_step(sim, 0);
