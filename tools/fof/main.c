@@ -178,7 +178,8 @@ static Fragment *measure(const Parts *p, const int32_t *id, long n, const Group 
 }
 
 /* The survivor that binds f[k] most, and what becomes of the fragment. Survivors are judged by
- * their pair alone: seen from the barycentre each is slower than v_esc even when they part for good. */
+ * their pair alone: seen from the barycentre each is slower than v_esc even when they part for
+ * good. */
 static void judge(Fragment *f, long n, long k)
 {
   Group *g = &f[k].g;
