@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* For tests of CUDA code, on a device or on the host (tests/host): arrays up and down, failures. Include
- * it last: cmocka has a macro `fail`. */
+/* For tests of CUDA code, on a device or on the host (tests/host): arrays up and down, failures.
+ * Include it last: cmocka has a macro `fail`. */
 #ifndef TESTS_GPU_H
 #define TESTS_GPU_H
 

@@ -2,7 +2,8 @@
 /* CUDA on the host, for tests: with this folder first in the include path, g++ compiles the same
  * .cu files as nvcc and runs their kernels exactly and slowly (device.h: the kernel's side;
  * threads.h: how they run). This header has the runtime's calls that the solver uses, with the
- * toolkit's signatures. Kernels are launched by cudaLaunchKernelEx (LAUNCH of launch.h), not <<<>>>.
+ * toolkit's signatures. Kernels are launched by cudaLaunchKernelEx (LAUNCH of launch.h), not
+ * <<<>>>.
  *
  * Streams are lazy: what is issued runs when somebody waits for it, so that a missing wait shows.
  * HOST_CUDA_STREAMS=eager runs it at once. HOST_CUDA_MEMORY: bytes of the device (default 4 GiB).
@@ -181,6 +182,8 @@ cudaError_t cudaGraphDestroy(cudaGraph_t graph);
 namespace host
 {
 
+enum { SHARED = 48 * 1024, SHARED_OPTIN = 227 * 1024, SHARED_ALL = 228 * 1024 }; /* bytes */
+
 /* issue: f in the stream's order, or into the graph that the stream records. name, for a graph's
  * update: node by node these must be the same. */
 cudaError_t issue(cudaStream_t stream, const char *name, std::function<void()> f);
@@ -272,14 +275,14 @@ cudaError_t cudaFuncSetAttribute(K *kernel, cudaFuncAttribute attribute, int val
 }
 template <class K> cudaError_t cudaFuncGetAttributes(cudaFuncAttributes *a, K *)
 {
-  *a = {0, 0, 0, 1024, 32, 49152};
+  *a = {0, 0, 0, 1024, 32, host::SHARED};
   return host::done(cudaSuccess);
 }
 template <class K>
 cudaError_t cudaOccupancyMaxActiveBlocksPerMultiprocessor(int *blocks, K *, int threads,
                                                           size_t shared)
 {
-  int by_shared = shared ? (int)(233472 / (shared + 1024)) : 32;
+  int by_shared = shared ? (int)(host::SHARED_ALL / (shared + 1024)) : 32;
   *blocks = min(min(2048 / threads, 32), by_shared);
   return host::done(cudaSuccess);
 }

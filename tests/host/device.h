@@ -2,9 +2,9 @@
 /* What a kernel sees: qualifiers, its place in the grid, barriers, warp intrinsics, atomics, maths.
  * Each CUDA thread is a fiber of threads.cpp. Barriers and *_sync intrinsics are meetings of all
  * threads that they name and that have not exited; who does not come is reported, with the source
- * line, and the program aborts. Not there, because not to be used: __activemask, atomics on floating
- * point, shuffles without a mask. A lane that reads from one that is not at the meeting gets bits
- * that are all set (a NaN, a -1). */
+ * line, and the program aborts. Not there, because not to be used: __activemask, atomics on
+ * floating point, shuffles without a mask. A lane that reads from one that is not at the meeting
+ * gets bits that are all set (a NaN, a -1). */
 #ifndef HOST_DEVICE_H
 #define HOST_DEVICE_H
 
@@ -388,7 +388,7 @@ HOST_STORE(__stwt)
 #undef HOST_LOAD
 #undef HOST_STORE
 
-/* Maths: the approximate ones are exact here. glibc declares some of the names: macros for these. */
+/* Maths: the approximate ones are exact here. glibc declares some of the names: macros then. */
 #define __expf(x)    expf(x)
 #define __exp10f(x)  exp10f(x)
 #define __logf(x)    logf(x)

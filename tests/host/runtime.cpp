@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The runtime's calls: one made-up device, its memory, streams, events and graphs. Everything that a
- * stream does is a closure; it waits in the stream's queue or stands in a graph. Any thread may call;
- * one call at a time. */
+/* The runtime's calls: one made-up device, its memory, streams, events and graphs. Everything that
+ * a stream does is a closure; it waits in the stream's queue or stands in a graph. Any thread may
+ * call; one call at a time. */
 #include <chrono>
 #include <deque>
 #include <map>
@@ -65,7 +65,7 @@ static std::set<cudaStream_t> streams;
 static size_t used; /* bytes of device memory */
 static cudaError_t last_error;
 
-enum { QUEUE = 1024, SHARED = 48 * 1024, SHARED_OPTIN = 227 * 1024 };
+enum { QUEUE = 1024 };
 
 #define LOCK() std::lock_guard<std::recursive_mutex> lock(mutex)
 
@@ -129,7 +129,7 @@ static cudaError_t piece_new(void **p, size_t bytes, decltype(Piece::kind) kind)
   *p = nullptr;
   if (capturing(false)) return break_captures();
   if (bytes == 0) return done(cudaSuccess);
-  if (kind == Piece::DEVICE && bytes > memory_size() - used) return done(cudaErrorMemoryAllocation);
+  if (kind == Piece::DEVICE && used + bytes > memory_size()) return done(cudaErrorMemoryAllocation);
   if (!(*p = aligned_alloc(256, (bytes + 255) / 256 * 256))) return done(cudaErrorMemoryAllocation);
   memset(*p, 0xff, bytes);
   pieces[reinterpret_cast<uintptr_t>(*p)] = {bytes, kind};
@@ -190,7 +190,7 @@ cudaError_t cudaMemGetInfo(size_t *available, size_t *total)
 {
   LOCK();
   *total = memory_size();
-  *available = *total - used;
+  *available = *total > used ? *total - used : 0;
   return done(cudaSuccess);
 }
 
@@ -208,8 +208,8 @@ static bool lazy()
   return !e || strcmp(e, "eager") != 0;
 }
 
-/* What is issued to the null stream waits for the other blocking streams and runs at once; they have
- * nothing to wait for then. */
+/* What is issued to the null stream waits for the other blocking streams and runs at once; they
+ * have nothing to wait for then. */
 cudaError_t host::issue(cudaStream_t stream, const char *name, std::function<void()> f)
 {
   LOCK();
@@ -517,7 +517,7 @@ cudaError_t host::launch_attribute(const void *kernel, cudaFuncAttribute attribu
 {
   LOCK();
   if (attribute != cudaFuncAttributeMaxDynamicSharedMemorySize) return done(cudaSuccess);
-  if (value < 0 || value > SHARED_OPTIN) return done(cudaErrorInvalidValue);
+  if (value < 0 || value > host::SHARED_OPTIN) return done(cudaErrorInvalidValue);
   shared_limit[kernel] = value;
   return done(cudaSuccess);
 }
@@ -527,7 +527,7 @@ cudaError_t host::launch_checks(const cudaLaunchConfig_t *c, const void *kernel)
   LOCK();
   dim3 g = c->gridDim, b = c->blockDim;
   auto it = shared_limit.find(kernel);
-  size_t limit = it == shared_limit.end() ? (size_t)SHARED : (size_t)it->second;
+  size_t limit = it == shared_limit.end() ? (size_t)host::SHARED : (size_t)it->second;
   bool good = g.x && g.y && g.z && b.x && b.y && b.z;
   good = good && g.x <= 0x7fffffff && g.y <= 65535 && g.z <= 65535;
   good = good && b.x <= 1024 && b.y <= 1024 && b.z <= 64 && b.x * b.y * b.z <= 1024;
@@ -543,7 +543,7 @@ cudaError_t host::launch_issue(const char *name, const cudaLaunchConfig_t *c,
   return issue(c->stream, name, [=] { threads_run(name, g, b, shared, body); });
 }
 
-/* The device. */
+/* Failures. */
 cudaError_t cudaGetLastError()
 {
   LOCK();
@@ -557,89 +557,3 @@ cudaError_t cudaPeekAtLastError()
   LOCK();
   return last_error;
 }
-
-const char *cudaGetErrorString(cudaError_t code)
-{
-  switch (code) {
-#define HOST_ERROR(NAME, NUMBER, TEXT)                                                             \
-  case NAME: return TEXT;
-    HOST_ERRORS(HOST_ERROR)
-#undef HOST_ERROR
-  }
-  return "unrecognized error code";
-}
-
-const char *cudaGetErrorName(cudaError_t code)
-{
-  switch (code) {
-#define HOST_ERROR(NAME, NUMBER, TEXT)                                                             \
-  case NAME: return #NAME;
-    HOST_ERRORS(HOST_ERROR)
-#undef HOST_ERROR
-  }
-  return "unrecognized error code";
-}
-
-cudaError_t cudaGetDeviceCount(int *count)
-{
-  *count = 1;
-  return done(cudaSuccess);
-}
-
-cudaError_t cudaGetDevice(int *device)
-{
-  *device = 0;
-  return done(cudaSuccess);
-}
-
-cudaError_t cudaSetDevice(int device)
-{
-  return done(device ? cudaErrorInvalidDevice : cudaSuccess);
-}
-
-cudaError_t cudaGetDeviceProperties(cudaDeviceProp *p, int device)
-{
-  if (device != 0) return done(cudaErrorInvalidDevice);
-  memset(p, 0, sizeof *p);
-  snprintf(p->name, sizeof p->name, "CUDA on the host");
-  p->totalGlobalMem = memory_size();
-  p->sharedMemPerBlock = SHARED, p->sharedMemPerBlockOptin = SHARED_OPTIN;
-  p->sharedMemPerMultiprocessor = 228 * 1024;
-  p->major = 9, p->minor = 0, p->multiProcessorCount = 4, p->warpSize = 32;
-  p->maxThreadsPerBlock = 1024, p->maxThreadsPerMultiProcessor = 2048;
-  p->maxThreadsDim[0] = p->maxThreadsDim[1] = 1024, p->maxThreadsDim[2] = 64;
-  p->maxGridSize[0] = 0x7fffffff, p->maxGridSize[1] = p->maxGridSize[2] = 65535;
-  p->regsPerBlock = p->regsPerMultiprocessor = 65536;
-  p->l2CacheSize = 1 << 20, p->memoryBusWidth = 64, p->canMapHostMemory = 1;
-  return done(cudaSuccess);
-}
-
-cudaError_t cudaDeviceGetAttribute(int *value, cudaDeviceAttr attribute, int device)
-{
-  cudaDeviceProp p;
-  if (cudaGetDeviceProperties(&p, device) != cudaSuccess) return cudaErrorInvalidDevice;
-  switch (attribute) {
-  case cudaDevAttrMaxThreadsPerBlock: *value = p.maxThreadsPerBlock; break;
-  case cudaDevAttrMaxSharedMemoryPerBlock: *value = (int)p.sharedMemPerBlock; break;
-  case cudaDevAttrWarpSize: *value = p.warpSize; break;
-  case cudaDevAttrMultiProcessorCount: *value = p.multiProcessorCount; break;
-  case cudaDevAttrL2CacheSize: *value = p.l2CacheSize; break;
-  case cudaDevAttrMaxThreadsPerMultiProcessor: *value = p.maxThreadsPerMultiProcessor; break;
-  case cudaDevAttrComputeCapabilityMajor: *value = p.major; break;
-  case cudaDevAttrComputeCapabilityMinor: *value = p.minor; break;
-  case cudaDevAttrMaxSharedMemoryPerMultiprocessor:
-    *value = (int)p.sharedMemPerMultiprocessor;
-    break;
-  case cudaDevAttrMaxSharedMemoryPerBlockOptin: *value = (int)p.sharedMemPerBlockOptin; break;
-  default: return done(cudaErrorInvalidValue);
-  }
-  return done(cudaSuccess);
-}
-
-cudaError_t cudaDriverGetVersion(int *version)
-{
-  *version = CUDART_VERSION;
-  return done(cudaSuccess);
-}
-
-cudaError_t cudaRuntimeGetVersion(int *version) { return cudaDriverGetVersion(version); }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Fibers, their meetings and the order in which they run. A fiber lives on its own guarded stack and
- * is used again by each block: it runs the body once a turn. */
+/* Fibers, their meetings and the order in which they run. A fiber lives on its own guarded stack
+ * and is used again by each block: it runs the body once a turn. */
 #include <cstdarg>
 #include <cstdlib>
 #include <deque>
@@ -18,7 +18,8 @@
 #include <sanitizer/common_interface_defs.h>
 #endif
 
-/* Where a fiber stands. On x86-64 the stack pointer says it all; elsewhere the C library does it. */
+/* Where a fiber stands. On x86-64 the stack pointer says it all; elsewhere the C library does it.
+ * */
 #if defined(__x86_64__) && !defined(HOST_UCONTEXT)
 struct Place {
   void *sp;
@@ -83,7 +84,8 @@ struct Warp {
   std::vector<Meeting *> open, spare;
 };
 
-/* The block that runs. Counts are kept for two barriers: who left the first may be at the second. */
+/* The block that runs. Counts are kept for two barriers: who left the first may be at the second.
+ * */
 struct Block {
   int alive, waiting, generation;
   Count count[2];

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The part of CUB that the solver uses, on the host. Device-wide calls: a first one without temporary
- * storage says how much is needed, a second one is issued to the stream like a kernel. Block- and
- * warp-wide classes meet like CUB's: storage that is used again needs a barrier in between. Results
- * that CUB leaves undefined have all bits set. */
+/* The part of CUB that the solver uses, on the host. Device-wide calls: a first one without
+ * temporary storage says how much is needed, a second one is issued to the stream like a kernel.
+ * Block- and warp-wide classes meet like CUB's: storage that is used again needs a barrier in
+ * between. Results that CUB leaves undefined have all bits set. */
 #ifndef HOST_CUB_CUH
 #define HOST_CUB_CUH
 
