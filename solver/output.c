@@ -123,9 +123,9 @@ int output_conserved(Output *o, Sim *sim, const SimStep *done, Err *err)
   return 0;
 }
 
-static int write_series(const Output *o, double last, Err *err)
+static int write_series(const Output *o, Err *err)
 {
-  long n = o->next + 1;
+  long n = o->index + 1;
   char *names = malloc((size_t)n * 32);
   const char **files = malloc((size_t)n * sizeof *files);
   double *times = malloc((size_t)n * sizeof *times);
@@ -134,7 +134,7 @@ static int write_series(const Output *o, double last, Err *err)
     for (long k = 0; k < n; k++) {
       snprintf(names + 32 * k, 32, "snap_%04ld.h5", k);
       files[k] = names + 32 * k;
-      times[k] = k == o->next ? last : o->start + (double)k * o->every;
+      times[k] = k == o->index ? o->time : o->start + (double)k * o->every;
     }
     rc = snap_series(o->dir, files, times, (int)n, err);
   } else
@@ -143,31 +143,57 @@ static int write_series(const Output *o, double last, Err *err)
   return rc;
 }
 
+/* The writer's part of a snapshot. */
+static int write_snapshot(void *data, Err *err)
+{
+  Output *o = data;
+  char path[4096], name[32];
+  snprintf(name, sizeof name, "snap_%04ld.h5", o->index);
+  name_of(o->dir, name, path, sizeof path);
+  if (o->sim->b->fetch(o->sim, o->parts, err) || snap_write(o->parts, path, 0, err) ||
+      write_series(o, err))
+    return -1;
+  output_log(o, "%s at step %ld, t = %.9g s", name, o->step, o->time);
+  return 0;
+}
+
+/* And of a checkpoint. */
+static int write_checkpoint(void *data, Err *err)
+{
+  Output *o = data;
+  char path[4096], before[4096], fresh[4096];
+  name_of(o->dir, "checkpoint.h5", path, sizeof path);
+  name_of(o->dir, "checkpoint_prev.h5", before, sizeof before);
+  name_of(o->dir, "checkpoint_new.h5", fresh, sizeof fresh);
+  if (o->sim->b->fetch(o->sim, o->parts, err) || snap_write(o->parts, fresh, 1, err)) return -1;
+  if (rename(path, before) && errno != ENOENT)
+    return err_set(err, "cannot rename '%s': %s", path, strerror(errno));
+  if (rename(fresh, path)) return err_set(err, "cannot rename '%s': %s", fresh, strerror(errno));
+  return 0;
+}
+
+/* Hands the present state to the writer. */
+static int begin(Output *o, Sim *sim, Parts *parts, int (*job)(void *data, Err *err), Err *err)
+{
+  if (writer_wait(&o->writer, err) || sim_send(sim, parts, err)) return -1;
+  o->sim = sim, o->parts = parts, o->index = o->next, o->step = sim->step, o->time = sim->time;
+  return writer_start(&o->writer, job, o, err);
+}
+
 int output_snapshot(Output *o, Sim *sim, Parts *parts, Err *err)
 {
-  char path[4096], name[32];
-  snprintf(name, sizeof name, "snap_%04ld.h5", o->next);
-  name_of(o->dir, name, path, sizeof path);
-  if (sim_store(sim, parts, err) || snap_write(parts, path, 0, err) ||
-      write_series(o, sim->time, err))
-    return -1;
-  output_log(o, "%s at step %ld, t = %.9g s", name, sim->step, sim->time);
+  if (begin(o, sim, parts, write_snapshot, err)) return -1;
   o->next++;
   return 0;
 }
 
 int output_checkpoint(Output *o, Sim *sim, Parts *parts, Err *err)
 {
-  char path[4096], before[4096], fresh[4096];
-  name_of(o->dir, "checkpoint.h5", path, sizeof path);
-  name_of(o->dir, "checkpoint_prev.h5", before, sizeof before);
-  name_of(o->dir, "checkpoint_new.h5", fresh, sizeof fresh);
-  if (sim_store(sim, parts, err) || snap_write(parts, fresh, 1, err)) return -1;
-  if (rename(path, before) && errno != ENOENT)
-    return err_set(err, "cannot rename '%s': %s", path, strerror(errno));
-  if (rename(fresh, path)) return err_set(err, "cannot rename '%s': %s", fresh, strerror(errno));
-  return 0;
+  return begin(o, sim, parts, write_checkpoint, err);
 }
+
+int output_look(Output *o, Err *err) { return writer_look(&o->writer, err); }
+int output_wait(Output *o, Err *err) { return writer_wait(&o->writer, err); }
 
 int output_find_checkpoint(const char *dir, Parts **found, Err *err)
 {

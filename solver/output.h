@@ -6,12 +6,19 @@
 
 #include <stdio.h>
 #include "sim.h"
+#include "writer.h"
 
 typedef struct {
   char dir[3072];
   double start, every, end; /* s */
   long next;                /* index of the next snapshot */
   FILE *conserved, *log;
+  Writer writer;
+  /* What the writer is at: a snapshot or a checkpoint, of this state. */
+  Sim *sim;
+  Parts *parts;
+  long index, step;
+  double time; /* s */
 } Output;
 
 /* output_claim: makes the directory if need be and opens run.log there, locked: one solver a
@@ -31,9 +38,14 @@ double output_due(const Output *o);
 int output_conserved(Output *o, Sim *sim, const SimStep *done, Err *err);
 
 /* output_snapshot: snap_NNNN.h5, and run.h5part anew. output_checkpoint: checkpoint.h5; when it is
- * whole, the one before becomes checkpoint_prev.h5. */
+ * whole, the one before becomes checkpoint_prev.h5. Both are begun only: the present state is
+ * written while the run goes on, one file at a time and in order. Until then parts are the
+ * writer's. output_look: whether what was begun has failed by now; output_wait: until it is done.
+ */
 int output_snapshot(Output *o, Sim *sim, Parts *parts, Err *err);
 int output_checkpoint(Output *o, Sim *sim, Parts *parts, Err *err);
+int output_look(Output *o, Err *err);
+int output_wait(Output *o, Err *err);
 
 /* output_find_checkpoint: reads checkpoint.h5, or checkpoint_prev.h5 when that is missing or
  * broken; *found is NULL when there is none at all. */

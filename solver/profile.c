@@ -8,12 +8,12 @@ void profile_print(const Sim *sim, long steps, FILE *to)
   static const char *const names[TIMERS] = {
       "order and tree", "neighbour search", "loop A (gradient)", "local passes",
       "density sum",    "loop B (force)",   "gravity",           "reductions"};
-  double per = 1e6 * omp_get_max_threads() / ((double)sim->s.n * (steps > 0 ? (double)steps : 1)),
+  const int cpu = sim->b == &backend_cpu;
+  double per = (cpu ? 1e6 * omp_get_max_threads() : 1e9) /
+               ((double)sim->s.n * (steps > 0 ? (double)steps : 1)),
          total = 0;
-  fprintf(to,
-          "# pass\tcalls\tseconds\tmicroseconds*core per particle and step (%ld particles, %ld "
-          "steps, %d threads)\n",
-          sim->s.n, steps, omp_get_max_threads());
+  fprintf(to, "# pass\tcalls\tseconds\t%s per particle and step (%ld particles, %ld steps, %s)\n",
+          cpu ? "microseconds*core" : "ns", sim->s.n, steps, sim->about);
   for (int t = 0; t < TIMERS; t++) {
     const BackendTimer *b = &sim->timer[t];
     total += b->spent;

@@ -6,8 +6,8 @@
 #include <stdio.h>
 #include "sim.h"
 
-/* profile_print: the table of passes: name, calls, seconds, microseconds x core per particle and
- * step. */
+/* profile_print: the table of passes: name, calls, seconds, per particle and step microseconds x
+ * core (cpu) or ns (a card, of its own clock). */
 void profile_print(const Sim *sim, long steps, FILE *to);
 
 #endif

@@ -47,11 +47,12 @@ static int fresh(Run *r, const Param *par, Err *err)
   if (part_history(r->parts, r->o->command, err) || param_record(par, r->parts, err)) return -1;
   if (part_set_number(r->parts, "run", "StartTime", r->parts->time, err)) return -1;
   if (sim_open(&r->sim, par, r->parts, r->o->device, err)) return -1;
+  r->sim.profile = r->o->profile;
   if (output_claim(&r->out, r->o->dir, err) || vacant(r->o, err)) return -1;
   if (output_open(&r->out, r->parts->time, r->o->every, r->o->end, err)) return -1;
   output_log(&r->out, "%s %ld particles, %dD, %d material(s), %s on %s", r->o->command, r->parts->n,
              r->parts->dimension, r->parts->materials, integrator_of(par->integrator)->about,
-             r->sim.b->name);
+             r->sim.about);
   if (output_conserved(&r->out, &r->sim, NULL, err)) return -1;
   return output_snapshot(&r->out, &r->sim, r->parts, err);
 }
@@ -80,9 +81,11 @@ static int resume(Run *r, const Param *par, Parts *checkpoint, Err *err)
   if (same_run(checkpoint, par, r->parts, err)) return -1;
   r->parts = checkpoint;
   if (sim_restart(&r->sim, par, checkpoint, r->o->device, err)) return -1;
+  r->sim.profile = r->o->profile;
   if (output_claim(&r->out, r->o->dir, err)) return -1;
   if (output_resume(&r->out, start, r->o->every, r->o->end, &r->sim, err)) return -1;
-  output_log(&r->out, "continued from step %ld, t = %.9g s", r->sim.step, r->sim.time);
+  output_log(&r->out, "continued from step %ld, t = %.9g s on %s", r->sim.step, r->sim.time,
+             r->sim.about);
   return 0;
 }
 
@@ -106,12 +109,13 @@ static int look_around(Run *r, const SimStep *done, Err *err)
 {
   int due = r->sim.time >= output_due(&r->out);
   show(r, done);
+  if (output_look(&r->out, err)) return -1;
   if (due || r->sim.step % r->sim.par.log_every == 0)
     if (output_conserved(&r->out, &r->sim, done, err)) return -1;
   if (due && output_snapshot(&r->out, &r->sim, r->parts, err)) return -1;
-  if (r->sim.time >= r->o->end) return save(r, err) ? -1 : 0;
+  if (r->sim.time >= r->o->end) return save(r, err) || output_wait(&r->out, err) ? -1 : 0;
   if (stop_signal || progress_clock() - r->began > r->o->max_wall) {
-    if (save(r, err)) return -1;
+    if (save(r, err) || output_wait(&r->out, err)) return -1;
     output_log(&r->out, "stopped at step %ld, t = %.9g s: %s", r->sim.step, r->sim.time,
                stop_signal ? "signal" : "wall clock");
     return 3;
@@ -139,6 +143,7 @@ int run_system(const RunOptions *o, const Param *par, Parts *parts, Err *err)
 {
   Run r;
   Parts *checkpoint = NULL;
+  Err late;
   int rc, running = 0;
   memset(&r, 0, sizeof r);
   r.o = o, r.parts = parts, r.began = r.saved = progress_clock();
@@ -148,6 +153,12 @@ int run_system(const RunOptions *o, const Param *par, Parts *parts, Err *err)
   rc = checkpoint ? resume(&r, par, checkpoint, err) : fresh(&r, par, err);
   r.first_step = r.sim.step;
   if (rc == 0) rc = loop(&r, err), running = 1;
+  if (output_wait(&r.out, &late)) {
+    if (rc < 0)
+      err_warn("%s", late.text);
+    else
+      *err = late, rc = -1;
+  }
   if (rc < 0) output_log(&r.out, "failed: %s", err->text);
   if (rc < 0 && running && output_has_checkpoint(o->dir)) {
     size_t used = strlen(err->text);

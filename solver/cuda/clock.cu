@@ -14,25 +14,25 @@ struct CudaClock {
   int count;
 };
 
-int cuda_clock_open(Sim *sim, Err *err)
+/* The clock, once it is wanted; NULL without. */
+static struct CudaClock *clock_of(Sim *sim)
 {
   Cuda *c = cuda_of(sim);
   CudaError *error = &c->error;
-  if (!sim->profile) return 0;
-  if (!(c->clock = (struct CudaClock *)calloc(1, sizeof *c->clock)))
-    return err_set(err, "not enough memory");
-  for (int k = 0; k < SPANS; k++) {
+  if (!sim->profile || c->clock) return c->clock;
+  c->clock = (struct CudaClock *)calloc(1, sizeof *c->clock);
+  for (int k = 0; k < SPANS && c->clock; k++) {
     CHECK(cudaEventCreate(&c->clock->span[k].from));
     CHECK(cudaEventCreate(&c->clock->span[k].to));
   }
-  return launch_failed(error, err);
+  return c->clock;
 }
 
 void cuda_begin(Sim *sim, int timer)
 {
   Cuda *c = cuda_of(sim);
   CudaError *error = &c->error;
-  if (!c->clock) return;
+  if (!clock_of(sim)) return;
   if (c->clock->count == SPANS) {
     CHECK(cudaStreamSynchronize(c->stream));
     cuda_clock(sim);

@@ -94,7 +94,7 @@ static int cuda_open(Sim *sim, const Parts *p, Err *err)
   if (!launch_failed(error, err) && !look_at_card(sim, p, err) && !cuda_state_open(sim, p, err) &&
       !cuda_order_open(sim, err) && !cuda_tree_open(sim, err) && !cuda_lists_open(sim, err) &&
       !cuda_loops_open(sim, err) && !cuda_gravity_open(sim, err) && !cuda_reduce_open(sim, err) &&
-      !cuda_clock_open(sim, err) && !cuda_store_open(sim, err))
+      !cuda_store_open(sim, err))
     return 0;
   cuda_close(sim);
   return -1;

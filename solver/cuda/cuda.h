@@ -123,7 +123,6 @@ void cuda_store_close(Sim *sim);
 
 /* cuda_begin, cuda_end: bracket a pass when sim->profile; cuda_clock: adds up what has ended; call
  * it when the stream is idle. */
-int cuda_clock_open(Sim *sim, Err *err);
 void cuda_begin(Sim *sim, int timer);
 void cuda_end(Sim *sim);
 void cuda_clock(Sim *sim);
