@@ -65,8 +65,8 @@ HD Sym tensor_invert(Sym s, double det)
   return tensor_scale(c, 1 / det);
 }
 
-/* tensor_solve: x with s x = b; 0 where s is as good as singular (det below 1e-12 of the cube of the
- * mean eigenvalue). */
+/* tensor_solve: x with s x = b; 0 where s is as good as singular (det below 1e-12 of the cube of
+ * the mean eigenvalue). */
 HD void tensor_solve(Sym s, const double b[3], double x[3])
 {
   double mean = (s.xx + s.yy + s.zz) / 3, det = tensor_det(s);

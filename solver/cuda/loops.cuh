@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The pair loops on the device, in one precision; loops_mixed.cu and loops_double.cu say which
  * (real), how four numbers are packed (Quad) and how a vector is kept such that differences of two
- * are exact enough (Place, place_*). One thread sums over the list of one particle. What it reads of
- * a neighbour is packed once per loop into 16-byte (32-byte) records, in code units.
+ * are exact enough (Place, place_*). One thread sums over the list of one particle. What it reads
+ * of a neighbour is packed once per loop into 16-byte (32-byte) records, in code units.
  *
  * Kernel, solid and miscible are literals; a line (1D) has one general instance of each loop. */
 #include "loops.h"
@@ -135,8 +135,8 @@ template <int kern, int line, int solid, int miscible> static __global__ void fo
   real signal = 2 * self.signal, near = 0;
   for (int k = 0; k < n; k++) {
     const PairBody other = body_get<solid, miscible>(a.r, neighbour(a, i, k), &xj);
-    const PairForce o = pair_force(place_between(xi, xj), &self, &other, kernel, line, solid,
-                                   miscible, &a.run);
+    const PairForce o =
+        pair_force(place_between(xi, xj), &self, &other, kernel, line, solid, miscible, &a.run);
     fx += o.fx, fy += o.fy, fz += o.fz, work += o.work, near += o.near;
     signal = o.signal > signal ? o.signal : signal;
   }
@@ -202,7 +202,7 @@ static Loop loop_of(const Sim *sim)
 {
   const Cuda *c = cuda_of(sim);
   const int d = sim->s.dimension;
-  const double volume = d == 3 ? c->unit.length * c->unit.length * c->unit.length
+  const double volume = d == 3   ? c->unit.length * c->unit.length * c->unit.length
                         : d == 2 ? c->unit.length * c->unit.length
                                  : c->unit.length;
   Loop a;

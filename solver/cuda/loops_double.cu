@@ -2,10 +2,8 @@
 /* The pair loops in double precision. */
 #include "loops.h"
 
-typedef struct __align__(16)
-{
-  double x, y, z, w;
-} Quad; /* double4 is deprecated in CUDA 13 and its heirs are missing in 12 */
+typedef struct __align__(16) { double x, y, z, w; }
+Quad; /* double4 is deprecated in CUDA 13 and its heirs are missing in 12 */
 typedef struct {
   Quad *at; /* w: h */
   double *w;
