@@ -9,13 +9,14 @@
 enum { HILBERT_LEVELS = 21 };
 
 /* hilbert_cube: the smallest cube from the lowest corner on that holds the box lo .. hi [m], or one
- * half as long again whose corner is drawn: three numbers in (0, 1), NULL: the smallest. */
+ * half as long again whose corner is drawn: three numbers in (0, 1), NULL: the smallest. The same
+ * bits on every machine. */
 HD void hilbert_cube(const double lo[3], const double hi[3], const double draw[3], double origin[3],
                      double *edge)
 {
   double e = fmax(fmax(hi[0] - lo[0], hi[1] - lo[1]), hi[2] - lo[2]);
   if (e < 1e-290) e = 1; /* coincident as far as arithmetic goes */
-  for (int d = 0; d < 3; d++) origin[d] = draw ? lo[d] - 0.5 * e * draw[d] : lo[d];
+  for (int d = 0; d < 3; d++) origin[d] = draw ? fma(-0.5 * e, draw[d], lo[d]) : lo[d];
   *edge = draw ? 1.5 * e : e;
 }
 

@@ -1,0 +1,450 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The octree of sorted keys, without locks: the leaf of a particle is one level below the deepest
+ * cell that holds it and TREE_BUCKET others, which are neighbours in the order; so each particle
+ * knows by itself which nodes begin with it. Their numbers, counted by level and block and added
+ * up, give every node its place. Moments go up from the leaves by eight threads a node: whoever
+ * finishes the last child does the parent, and adds the children in their order. */
+#include <cub/cub.cuh>
+#include "tree.cuh"
+
+enum { THREADS = 256, WARPS = THREADS / 32, LANES = 8, ROWS = CUDA_LEVELS + 1 };
+static const unsigned ALL = ~0u;
+static __device__ const float NOWHERE = 1e38f;
+
+/* Everything that the kernels read and write. */
+typedef struct {
+  State s;
+  Units unit;
+  const Root *root;
+  const uint64_t *key;
+  DeviceTree t;
+  struct CudaTree b;
+  Report *report;
+  int blocks;
+} Build;
+
+/* How many digits each particle shares with the one before it (-1: the first particle), and the
+ * level of its leaf; a node of level l begins with it when x < l <= y. */
+static __device__ char2 span_of(const uint64_t *key, long n, long base)
+{
+  enum { HALO = TREE_BUCKET };
+  __shared__ uint64_t k[THREADS + 2 * HALO];
+  __shared__ signed char c[THREADS + HALO];
+  for (int t = (int)threadIdx.x; t < THREADS + 2 * HALO; t += THREADS) {
+    const long i = base - HALO + t;
+    k[t] = i >= 0 && i < n ? key[i] : 0;
+  }
+  __syncthreads();
+  for (int t = (int)threadIdx.x; t < THREADS + HALO; t += THREADS) {
+    const long i = base - HALO + t; /* the particles i .. i + TREE_BUCKET */
+    c[t] = i >= 0 && i + TREE_BUCKET < n ? tree_common(k[t], k[t + HALO]) : -1;
+  }
+  __syncthreads();
+  const int t = (int)threadIdx.x;
+  int level = -1, before = t + base ? tree_common(k[t + HALO - 1], k[t + HALO]) : -1;
+#pragma unroll
+  for (int w = 0; w <= HALO; w++) level = max(level, (int)c[t + w]);
+  if (base + t >= n) return make_char2(CUDA_LEVELS, 0);
+  return make_char2((signed char)before, (signed char)min(level + 1, (int)CUDA_LEVELS));
+}
+
+static __global__ void __launch_bounds__(THREADS) count_nodes(const __grid_constant__ Build a)
+{
+  __shared__ int sum[WARPS][ROWS];
+  const long base = (long)blockIdx.x * THREADS, i = base + threadIdx.x;
+  const char2 span = span_of(a.key, a.s.n, base);
+  const int lane = threadIdx.x % 32, warp = threadIdx.x / 32;
+  if (i < a.s.n) a.b.span[i] = span;
+  int mine = 0;
+  for (int l = 0; l < ROWS; l++) {
+    const unsigned begin = __ballot_sync(ALL, span.x < l && l <= span.y);
+    if (l == lane) mine = __popc(begin);
+  }
+  if (lane < ROWS) sum[warp][lane] = mine;
+  __syncthreads();
+  if (threadIdx.x >= ROWS) return;
+  int all = 0;
+  for (int w = 0; w < WARPS; w++) all += sum[w][threadIdx.x];
+  a.b.count[threadIdx.x * a.blocks + blockIdx.x] = all;
+  if (blockIdx.x == 0 && threadIdx.x == 0) a.b.count[ROWS * a.blocks] = 0;
+}
+
+/* One past the last particle that shares `level` digits with particle i. */
+static __device__ long end_of(const uint64_t *key, long n, long i, int level)
+{
+  const uint64_t top = key[i] | (((uint64_t)1 << 3 * (CUDA_LEVELS - level)) - 1);
+  long step = 1;
+  for (; i + step < n && key[i + step] <= top; step *= 2) i += step;
+  for (; step; step /= 2)
+    if (i + step < n && key[i + step] <= top) i += step;
+  return i + 1;
+}
+
+static __device__ void report_nodes(const Build &a)
+{
+  int deepest = 0;
+  for (int l = 0; l <= ROWS; l++) {
+    a.t.level[l] = a.b.base[l * a.blocks];
+    if (l && a.t.level[l] > a.t.level[l - 1]) deepest = l - 1;
+  }
+  a.report->nodes = a.t.level[ROWS], a.report->deepest = deepest;
+}
+
+/* Writes the nodes that begin with each particle, with their parents. */
+static __global__ void __launch_bounds__(THREADS) make_nodes(const __grid_constant__ Build a)
+{
+  __shared__ int place[WARPS][ROWS];
+  const long i = (long)blockIdx.x * THREADS + threadIdx.x;
+  const int lane = threadIdx.x % 32, warp = threadIdx.x / 32;
+  const char2 span = i < a.s.n ? a.b.span[i] : make_char2(CUDA_LEVELS, 0);
+  int mine = 0, parent = -1;
+  for (int l = 0; l < ROWS; l++) {
+    const unsigned begin = __ballot_sync(ALL, span.x < l && l <= span.y);
+    if (l == lane) mine = __popc(begin);
+  }
+  if (lane < ROWS) place[warp][lane] = mine;
+  __syncthreads();
+  if (threadIdx.x < ROWS) {
+    int at = a.b.base[threadIdx.x * a.blocks + blockIdx.x];
+    for (int w = 0; w < WARPS; w++) {
+      const int more = place[w][threadIdx.x];
+      place[w][threadIdx.x] = at, at += more;
+    }
+  }
+  __syncthreads();
+  for (int l = 0; l < ROWS; l++) {
+    const int begins = span.x < l && l <= span.y;
+    const unsigned begin = __ballot_sync(ALL, begins);
+    const int me = place[warp][l] + __popc(begin & ((1u << lane) - 1));
+    if (l == span.x) parent = me - 1; /* the node of this level that began before and goes on */
+    if (!begins || me >= a.t.room) continue;
+    a.b.parent[me] = parent, a.b.arrived[me] = 0;
+    if (l > span.x + 1) a.t.link[parent] = make_int4(me, -1, (int)i, 0);
+    if (l == span.y) a.t.link[me] = make_int4(0, 0, (int)i, (int)(end_of(a.key, a.s.n, i, l) - i));
+    parent = me;
+  }
+  if (i == 0) report_nodes(a);
+}
+
+/* Over the eight threads of a node; all get the same bits. */
+template <class T> static __device__ __forceinline__ T add8(T v)
+{
+#pragma unroll
+  for (int k = LANES / 2; k; k /= 2) v += __shfl_xor_sync(ALL, v, k);
+  return v;
+}
+static __device__ __forceinline__ float min8(float v)
+{
+#pragma unroll
+  for (int k = LANES / 2; k; k /= 2) v = fminf(v, __shfl_xor_sync(ALL, v, k));
+  return v;
+}
+static __device__ __forceinline__ float max8(float v) { return -min8(-v); }
+
+/* What goes up. */
+typedef struct {
+  double m, com[3], q[6]; /* SI */
+  float lo[3], hi[3], h;  /* code units; h_max */
+  float drift[3], reach;
+  int count;
+} Up;
+
+/* Adds m (3 r r - r^2 1). */
+static __device__ __forceinline__ void add_quadrupole(double q[6], double m, double x, double y,
+                                                      double z)
+{
+  const double r2 = x * x + y * y + z * z;
+  q[0] += m * (3 * x * x - r2), q[1] += m * 3 * x * y, q[2] += m * 3 * x * z;
+  q[3] += m * (3 * y * y - r2), q[4] += m * 3 * y * z, q[5] += m * (3 * z * z - r2);
+}
+
+/* Mass, centre and box of all from those of the threads; sum: of m x. */
+static __device__ __forceinline__ void join(const Build &a, Up *u, double sum[3])
+{
+  u->m = add8(u->m), u->h = max8(u->h), u->count = add8(u->count);
+#pragma unroll
+  for (int d = 0; d < 3; d++) {
+    sum[d] = add8(sum[d]);
+    u->lo[d] = min8(u->lo[d]), u->hi[d] = max8(u->hi[d]);
+    u->com[d] = u->m > 0 ? sum[d] / u->m
+                         : a.root->origin[d] + 0.5 * ((double)u->lo[d] + u->hi[d]) * a.unit.length;
+  }
+}
+
+static __device__ __forceinline__ float size3(float x, float y, float z)
+{
+  return sqrtf(x * x + y * y + z * z);
+}
+
+/* y - x of particle i in code units. */
+static __device__ __forceinline__ void drift_of(const Build &a, long i, float out[3])
+{
+#pragma unroll
+  for (int d = 0; d < 3; d++)
+    out[d] = (float)((a.s.y[3 * i + d] - a.s.x[3 * i + d]) * (1 / a.unit.length));
+}
+
+static __device__ __forceinline__ int fixed(double x, double origin, double edge)
+{
+  const double v = (x - origin) / edge / PLACE_CELL, last = 1 / PLACE_CELL - 1;
+  return (int)(v < last ? (v > 0 ? v : 0) : last);
+}
+
+/* What the search reads of particle i: its place and s, rounded up by more than both lose. */
+static __device__ float keep_place(const Build &a, long i, const float drift[3])
+{
+  const double il = 1 / a.unit.length, *x = a.s.x + 3 * i;
+  float e[3];
+  drift_of(a, i, e);
+  const float off = size3(e[0] - drift[0], e[1] - drift[1], e[2] - drift[2]);
+  const double h = a.s.h[i], ha = a.s.ha[i];
+  float s = fmaxf((float)(0.5 * h * il), (float)(0.5 * ha * il) + off);
+  if (!(h >= 0 && ha >= 0 && fmax(h, ha) * il < NOWHERE && size3(e[0], e[1], e[2]) < NOWHERE)) {
+    atomicMin(&a.report->loose, (long long)a.s.id[i]);
+    s = 0;
+  }
+  s = s * 1.000001f + (float)(a.root->edge * PLACE_CELL * il);
+  a.b.place[i] = make_int4(fixed(x[0], a.root->origin[0], a.root->edge),
+                           fixed(x[1], a.root->origin[1], a.root->edge),
+                           fixed(x[2], a.root->origin[2], a.root->edge), __float_as_int(s));
+  return s;
+}
+
+static __device__ __forceinline__ void start(Up *u)
+{
+  u->m = 0, u->h = u->reach = 0, u->count = 0;
+#pragma unroll
+  for (int k = 0; k < 6; k++) u->q[k] = 0;
+#pragma unroll
+  for (int d = 0; d < 3; d++) u->lo[d] = NOWHERE, u->hi[d] = -NOWHERE, u->drift[d] = 0;
+}
+
+/* Particles first .. end-1, none: the thread's node is no leaf. */
+static __device__ void sum_leaf(const Build &a, long first, long end, int rank, Up *u)
+{
+  const double il = 1 / a.unit.length, *o = a.root->origin;
+  double sum[3] = {0, 0, 0};
+  start(u);
+  for (long i = first + rank; i < end; i += LANES) {
+    const double *x = a.s.x + 3 * i, m = a.s.m[i];
+    float e[3];
+    drift_of(a, i, e);
+    u->m += m, u->h = fmaxf(u->h, __double2float_ru(a.s.h[i] * il)), u->count++;
+#pragma unroll
+    for (int d = 0; d < 3; d++) {
+      const double v = (x[d] - o[d]) * il;
+      sum[d] += m * x[d], u->drift[d] += e[d];
+      u->lo[d] = fminf(u->lo[d], __double2float_rd(v));
+      u->hi[d] = fmaxf(u->hi[d], __double2float_ru(v));
+    }
+  }
+  join(a, u, sum);
+#pragma unroll
+  for (int d = 0; d < 3; d++) u->drift[d] = add8(u->drift[d]) / (float)max(u->count, 1);
+  for (long i = first + rank; i < end; i += LANES) {
+    const double *x = a.s.x + 3 * i;
+    add_quadrupole(u->q, a.s.m[i], x[0] - u->com[0], x[1] - u->com[1], x[2] - u->com[2]);
+    u->reach = fmaxf(u->reach, keep_place(a, i, u->drift));
+  }
+#pragma unroll
+  for (int k = 0; k < 6; k++) u->q[k] = add8(u->q[k]);
+  u->reach = max8(u->reach);
+}
+
+/* From child `child` of each thread, -1: none. Others have written it: past the first cache. */
+static __device__ void sum_children(const Build &a, int child, int children, Up *u)
+{
+  double c[4] = {0, 0, 0, 0}, sum[3];
+  float4 drift = make_float4(0, 0, 0, 0);
+  start(u);
+  if (child >= 0) {
+    const double2 *m = (const double2 *)(a.t.moment + 10 * (size_t)child);
+    const float4 lo = __ldcg(a.t.lo + child), hi = __ldcg(a.t.hi + child);
+    double2 v[5];
+#pragma unroll
+    for (int k = 0; k < 5; k++) v[k] = __ldcg(m + k);
+    drift = __ldcg(a.b.drift + child);
+    u->lo[0] = lo.x, u->lo[1] = lo.y, u->lo[2] = lo.z;
+    u->hi[0] = hi.x, u->hi[1] = hi.y, u->hi[2] = hi.z, u->h = hi.w;
+    u->count = __ldcg(&a.t.link[child].w);
+    c[0] = v[0].x, c[1] = v[0].y, c[2] = v[1].x, c[3] = v[1].y;
+#pragma unroll
+    for (int k = 0; k < 6; k++) u->q[k] = k % 2 ? v[2 + k / 2].y : v[2 + k / 2].x;
+  }
+  u->m = c[0];
+#pragma unroll
+  for (int d = 0; d < 3; d++) sum[d] = c[0] * c[1 + d];
+  join(a, u, sum);
+  add_quadrupole(u->q, c[0], c[1] - u->com[0], c[2] - u->com[1], c[3] - u->com[2]);
+#pragma unroll
+  for (int k = 0; k < 6; k++) u->q[k] = add8(u->q[k]);
+  const float share = 1 / (float)max(children, 1);
+  u->drift[0] = add8(drift.x) * share, u->drift[1] = add8(drift.y) * share;
+  u->drift[2] = add8(drift.z) * share;
+  if (child >= 0)
+    u->reach = 1.000001f * (drift.w + size3(drift.x - u->drift[0], drift.y - u->drift[1],
+                                            drift.z - u->drift[2]));
+  u->reach = max8(u->reach);
+}
+
+static __device__ void keep_pole(const Build &a, int node, const Up &u)
+{
+  const double im = 1 / a.unit.mass, il = 1 / a.unit.length;
+  Pole p;
+#pragma unroll
+  for (int d = 0; d < 3; d++) {
+    const double c = (u.com[d] - a.root->origin[d]) * il;
+    p.hi[d] = (float)c, p.lo[d] = (float)(c - (double)p.hi[d]);
+  }
+  p.mass = (float)(u.m * im), p.pad = p.pad2[0] = p.pad2[1] = 0;
+#pragma unroll
+  for (int k = 0; k < 6; k++) p.q[k] = (float)(u.q[k] * im * il * il);
+  float4 *to = (float4 *)(a.t.pole + node);
+  to[0] = make_float4(p.hi[0], p.hi[1], p.hi[2], p.mass);
+  to[1] = make_float4(p.lo[0], p.lo[1], p.lo[2], 0);
+  to[2] = make_float4(p.q[0], p.q[1], p.q[2], p.q[3]);
+  to[3] = make_float4(p.q[4], p.q[5], 0, 0);
+  a.t.com[node] = to[0];
+}
+
+static __device__ void keep(const Build &a, int node, int children, const Up &u)
+{
+  double2 *m = (double2 *)(a.t.moment + 10 * (size_t)node);
+  int4 link = a.t.link[node];
+  const int level = tree_common(a.key[link.z], a.key[link.z + u.count - 1]);
+  const double size = a.root->edge / (double)(1 << level) / a.unit.length;
+  link.y = children, link.w = u.count;
+  a.t.link[node] = link;
+  a.t.lo[node] = make_float4(u.lo[0], u.lo[1], u.lo[2], __double2float_ru(size));
+  a.t.hi[node] = make_float4(u.hi[0], u.hi[1], u.hi[2], u.h);
+  a.b.drift[node] = make_float4(u.drift[0], u.drift[1], u.drift[2], u.reach);
+  m[0] = make_double2(u.m, u.com[0]), m[1] = make_double2(u.com[1], u.com[2]);
+  m[2] = make_double2(u.q[0], u.q[1]), m[3] = make_double2(u.q[2], u.q[3]);
+  m[4] = make_double2(u.q[4], u.q[5]);
+  keep_pole(a, node, u);
+}
+
+/* Four nodes a warp: their leaves, then as far up as they are the last to come. */
+static __global__ void __launch_bounds__(THREADS) sum_up(const __grid_constant__ Build a)
+{
+  const int nodes = a.t.level[ROWS], stride = (int)gridDim.x * THREADS / LANES;
+  const int lane = threadIdx.x % 32, rank = lane % LANES, head = lane - rank;
+  if (nodes > a.t.room) return;
+  for (int b = ((int)blockIdx.x * THREADS + (int)threadIdx.x - lane) / LANES; b < nodes;
+       b += stride) {
+    int node = b + lane / LANES, children = 0;
+    int4 link = make_int4(0, -1, 0, 0);
+    Up u;
+    if (node < nodes) link = __ldcg(a.t.link + node);
+    bool on = node < nodes && link.y == 0;
+    sum_leaf(a, link.z, on ? (long)link.z + link.w : 0, rank, &u);
+    while (__any_sync(ALL, on)) {
+      if (on && rank == 0) keep(a, node, children, u);
+      __threadfence();
+      __syncwarp();
+      const int up = on ? a.b.parent[node] : -1;
+      const int first = up >= 0 ? a.t.link[up].x : 0;
+      const bool kin = up >= 0 && first + rank < nodes && a.b.parent[first + rank] == up;
+      children = __popc(__ballot_sync(ALL, kin) >> head & 255);
+      int came = 0;
+      if (up >= 0 && rank == 0) came = atomicAdd(a.b.arrived + up, 1);
+      came = __shfl_sync(ALL, came, head);
+      on = up >= 0 && came == children - 1, node = up;
+      __threadfence();
+      sum_children(a, on && kin ? first + rank : -1, children, &u);
+    }
+  }
+}
+
+static int blocks_of(long n) { return (int)launch_blocks((size_t)n, THREADS); }
+
+int cuda_tree(Sim *sim, Err *err)
+{
+  Cuda *c = cuda_of(sim);
+  CudaError *error = &c->error;
+  struct CudaTree *b = c->build;
+  const int blocks = blocks_of(sim->s.n), most = 8 * 132;
+  Build a = {sim->s, c->unit, c->root, c->order->key[0], c->tree, *b, c->order->report, blocks};
+  LAUNCH(count_nodes, blocks, THREADS, 0, c->stream, a);
+  if (!error->code)
+    CHECK(cub::DeviceScan::ExclusiveSum(b->scan, b->scan_bytes, b->count, b->base,
+                                        ROWS * blocks + 1, c->stream));
+  LAUNCH(make_nodes, blocks, THREADS, 0, c->stream, a);
+  LAUNCH(sum_up, blocks < most ? blocks : most, THREADS, 0, c->stream, a);
+  return launch_failed(error, err);
+}
+
+enum { NODE_BYTES = 16 + 3 * 16 + sizeof(Pole) + 80 + 2 * 4 + 16 };
+
+static long first_room(long n) { return n / 4 + 1024; }
+
+static void free_nodes(Cuda *c)
+{
+  DeviceTree *t = &c->tree;
+  cuda_free(t->link), cuda_free(t->lo), cuda_free(t->hi), cuda_free(t->com), cuda_free(t->pole);
+  cuda_free(t->moment), cuda_free(c->build->parent), cuda_free(c->build->arrived);
+  cuda_free(c->build->drift);
+  t->link = NULL, t->lo = t->hi = t->com = NULL, t->pole = NULL, t->moment = NULL, t->room = 0;
+  c->build->parent = c->build->arrived = NULL, c->build->drift = NULL;
+}
+
+int cuda_tree_grow(Sim *sim, long nodes, Err *err)
+{
+  Cuda *c = cuda_of(sim);
+  DeviceTree *t = &c->tree;
+  const size_t r = (size_t)nodes;
+  free_nodes(c);
+  if (cuda_alloc(sim, (void **)&t->link, r * 16, err) ||
+      cuda_alloc(sim, (void **)&t->lo, r * 16, err) ||
+      cuda_alloc(sim, (void **)&t->hi, r * 16, err) ||
+      cuda_alloc(sim, (void **)&t->com, r * 16, err) ||
+      cuda_alloc(sim, (void **)&t->pole, r * sizeof(Pole), err) ||
+      cuda_alloc(sim, (void **)&t->moment, r * 80, err) ||
+      cuda_alloc(sim, (void **)&c->build->parent, r * 4, err) ||
+      cuda_alloc(sim, (void **)&c->build->arrived, r * 4, err) ||
+      cuda_alloc(sim, (void **)&c->build->drift, r * 16, err))
+    return -1;
+  t->room = nodes;
+  return 0;
+}
+
+size_t cuda_tree_bytes(const Sim *sim)
+{
+  const size_t n = (size_t)sim->s.n;
+  return (size_t)first_room(sim->s.n) * NODE_BYTES + n * (16 + 2) +
+         (size_t)blocks_of(sim->s.n) * ROWS * 8 + (1 << 20);
+}
+
+int cuda_tree_open(Sim *sim, Err *err)
+{
+  Cuda *c = cuda_of(sim);
+  CudaError *error = &c->error;
+  const size_t n = (size_t)sim->s.n, counts = (size_t)blocks_of(sim->s.n) * ROWS + 1;
+  struct CudaTree *b = (struct CudaTree *)calloc(1, sizeof *b);
+  if (!b) return err_set(err, "not enough memory");
+  c->build = b;
+  if (CHECK(cub::DeviceScan::ExclusiveSum(NULL, b->scan_bytes, b->count, b->base, (int)counts,
+                                          c->stream)))
+    return launch_failed(error, err);
+  if (cuda_alloc(sim, (void **)&b->place, n * 16, err) ||
+      cuda_alloc(sim, (void **)&b->span, n * 2, err) ||
+      cuda_alloc(sim, (void **)&b->count, counts * 4, err) ||
+      cuda_alloc(sim, (void **)&b->base, counts * 4, err) ||
+      cuda_alloc(sim, &b->scan, b->scan_bytes, err) ||
+      cuda_alloc(sim, (void **)&c->tree.level, (ROWS + 1) * sizeof(int), err))
+    return -1;
+  return cuda_tree_grow(sim, first_room(sim->s.n), err);
+}
+
+void cuda_tree_close(Sim *sim)
+{
+  Cuda *c = cuda_of(sim);
+  struct CudaTree *b = c->build;
+  if (!b) return;
+  free_nodes(c);
+  cuda_free(c->tree.level), c->tree.level = NULL;
+  cuda_free(b->place), cuda_free(b->span), cuda_free(b->count), cuda_free(b->base);
+  cuda_free(b->scan);
+  free(b);
+  c->build = NULL;
+}
