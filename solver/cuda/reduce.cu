@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reductions over all particles: BLOCKS blocks of THREADS threads take the particles in turns, a
- * binary tree in shared memory joins the threads of a block, and one block more joins the blocks.
- * Grid and trees are the same on every card, so sums have the same bits. The results of a step are
+/* Reductions over all particles: at most BLOCKS blocks of THREADS threads take the particles in
+ * turns, a binary tree in shared memory joins the threads of a block, and one block more joins the
+ * blocks. Grid and trees depend on the number of particles alone, so sums have the same bits. The results of a step are
  * one small struct on the device, copied to the host at once. */
 #include "cuda.h"
 extern "C" {
 #include "../reduce.h"
 }
 
-enum { THREADS = 128, BLOCKS = 1024 };
+enum : unsigned { THREADS = 128, BLOCKS = 1024 };
 
 typedef struct {
   double worst;
@@ -77,9 +77,9 @@ static __device__ void merge(Worst *a, const Worst *b)
 template <class T> static __device__ void join(T *mine)
 {
   __shared__ T all[THREADS];
-  int t = (int)threadIdx.x;
+  const unsigned t = threadIdx.x;
   all[t] = *mine;
-  for (int half = THREADS / 2; half > 0; half /= 2) {
+  for (unsigned half = THREADS / 2; half > 0; half /= 2) {
     __syncthreads();
     if (t < half) merge(&all[t], &all[t + half]);
   }
@@ -91,19 +91,18 @@ template <class T> static __global__ void reduce_parts(const Context c, T *part)
 {
   T o;
   start(&o);
-  for (long i = (long)blockIdx.x * THREADS + threadIdx.x; i < c.s.n; i += (long)BLOCKS * THREADS)
+  for (long i = (long)blockIdx.x * THREADS + threadIdx.x; i < c.s.n; i += (long)gridDim.x * THREADS)
     add(&o, c, (int)blockIdx.y, i);
   join(&o);
-  if (threadIdx.x == 0) part[blockIdx.y * BLOCKS + blockIdx.x] = o;
+  if (threadIdx.x == 0) part[blockIdx.y * gridDim.x + blockIdx.x] = o;
 }
 
 /* All shares; blockIdx.x: body. */
-template <class T> static __global__ void reduce_all(const T *part, T *out)
+template <class T> static __global__ void reduce_all(const T *part, unsigned parts, T *out)
 {
   T o;
   start(&o);
-  for (int b = (int)threadIdx.x; b < BLOCKS; b += THREADS)
-    merge(&o, &part[blockIdx.x * BLOCKS + b]);
+  for (unsigned b = threadIdx.x; b < parts; b += THREADS) merge(&o, &part[blockIdx.x * parts + b]);
   join(&o);
   if (threadIdx.x == 0) out[blockIdx.x] = o;
 }
@@ -114,9 +113,11 @@ template <class T> static void reduce(Sim *sim, const Step *step, int bodies, T 
   CudaError *error = &c->error;
   T *part = (T *)c->reduce->part;
   Context x = {sim->s, {}, c->reduce->device->motion};
+  const unsigned all = launch_blocks((size_t)sim->s.n, THREADS),
+                 parts = all < BLOCKS ? all : BLOCKS;
   if (step) x.k = *step;
-  LAUNCH(reduce_parts<T>, dim3(BLOCKS, (unsigned)bodies), THREADS, 0, c->stream, x, part);
-  LAUNCH(reduce_all<T>, (unsigned)bodies, THREADS, 0, c->stream, (const T *)part, out);
+  LAUNCH(reduce_parts<T>, dim3(parts, (unsigned)bodies), THREADS, 0, c->stream, x, part);
+  LAUNCH(reduce_all<T>, (unsigned)bodies, THREADS, 0, c->stream, (const T *)part, parts, out);
 }
 
 /* The results to the host. */
