@@ -73,16 +73,26 @@ static inline void cloud_place(CloudShape shape, int seed, long n, long i, doubl
   }
 }
 
+/* cloud_room: zeros. */
+static inline Cloud cloud_room(long n)
+{
+  const size_t z = (size_t)n;
+  Cloud c;
+  c.n = n;
+  c.x = (double *)calloc(z, 24), c.y = (double *)calloc(z, 24), c.v = (double *)calloc(z, 24);
+  c.m = (double *)calloc(z, 8), c.h = (double *)calloc(z, 8), c.id = (int64_t *)calloc(z, 8);
+  return c;
+}
+
 /* spread: the largest h over the smallest. Masses differ by a factor 3. */
 static inline Cloud cloud_new(CloudShape shape, long n, int seed, double spread)
 {
   const double h0 = shape == PAIRS ? 1e5 : 1e6 * cbrt(40 / (double)n);
   const size_t z = (size_t)n;
-  double *raw = calloc(z, 24);
-  long *order = calloc(z, sizeof *order);
-  int64_t *id = calloc(z, sizeof *id);
-  Cloud c = {n,           calloc(z, 24), calloc(z, 24), calloc(z, 24), calloc(z, 8), calloc(z, 8),
-             calloc(z, 8)};
+  double *raw = (double *)calloc(z, 24);
+  long *order = (long *)calloc(z, sizeof *order);
+  int64_t *id = (int64_t *)calloc(z, sizeof *id);
+  Cloud c = cloud_room(n);
   Err err;
   for (long i = 0; i < n; i++) cloud_place(shape, seed, n, i, raw + 3 * i), id[i] = 7 * i + 3;
   if (tree_order(n, raw, id, 0, order, &err)) abort();

@@ -143,6 +143,13 @@ template <class T, class F> T update(T *p, F f)
   return old;
 }
 
+/* rounded: x, which the compiler may not take into a fused multiply-add. */
+template <class T> T rounded(T x)
+{
+  __asm__ __volatile__("" : "+m"(x));
+  return x;
+}
+
 } // namespace host
 
 extern uint3 threadIdx, blockIdx;
@@ -411,14 +418,14 @@ static inline float __frsqrt_rn(float x) { return (float)(1 / sqrt((double)x)); 
 static inline float __fsqrt_rn(float x) { return sqrtf(x); }
 static inline float __fadd_rn(float x, float y) { return x + y; }
 static inline float __fsub_rn(float x, float y) { return x - y; }
-static inline float __fmul_rn(float x, float y) { return x * y; }
+static inline float __fmul_rn(float x, float y) { return host::rounded(x * y); }
 static inline float __fdiv_rn(float x, float y) { return x / y; }
 static inline float __fmaf_rn(float x, float y, float z) { return fmaf(x, y, z); }
 static inline double __drcp_rn(double x) { return 1 / x; }
 static inline double __dsqrt_rn(double x) { return sqrt(x); }
 static inline double __dadd_rn(double x, double y) { return x + y; }
 static inline double __dsub_rn(double x, double y) { return x - y; }
-static inline double __dmul_rn(double x, double y) { return x * y; }
+static inline double __dmul_rn(double x, double y) { return host::rounded(x * y); }
 static inline double __ddiv_rn(double x, double y) { return x / y; }
 static inline double __fma_rn(double x, double y, double z) { return fma(x, y, z); }
 

@@ -1,0 +1,238 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Self-gravity on the device: the tree walk (gravity_walk.cuh) or direct sums, then what
+ * force and torque the tree's errors leave over is taken off (recoil.h) and the pull is added to
+ * acc. Nothing waits. */
+#include "cuda.h"
+extern "C" {
+#include "../recoil.h"
+}
+#include "gravity_walk.cuh"
+
+enum {
+  DIRECT_BLOCK = 128, /* targets a block, sources a tile */
+  RECOIL_BLOCKS = 512,
+  RECOIL_THREADS = 128,
+  FEW_WARPS = 5000 /* a card wants more than these at work */
+};
+
+struct CudaGravity {
+  Recoil *recoil;
+  RecoilForce *force; /* [RECOIL_BLOCKS] */
+  RecoilTorque *torque;
+};
+
+size_t cuda_gravity_bytes(const Sim *sim)
+{
+  const size_t part = sizeof(RecoilForce) + sizeof(RecoilTorque);
+  return sim->par.gravity == PARAM_TREE ? RECOIL_BLOCKS * part + sizeof(Recoil) : 0;
+}
+
+/* A sum of floats to twice their precision (Knuth's two-sum): fast on every card. */
+struct Wide {
+  float sum, rest;
+};
+
+INLINE void add(Wide *a, float x)
+{
+  const float s = a->sum + x, b = s - a->sum;
+  a->rest += (a->sum - (s - b)) + (x - b), a->sum = s;
+}
+
+INLINE void add(double *a, double x) { *a += x; }
+/* A product that is rounded before anything is added: what add() needs. */
+INLINE float product(float a, float b) { return __fmul_rn(a, b); }
+INLINE double product(double a, double b) { return __dmul_rn(a, b); }
+INLINE double whole(Wide a) { return (double)a.sum + a.rest; }
+INLINE double whole(double a) { return a; }
+template <class Real> struct DirectSum;
+template <> struct DirectSum<float> {
+  typedef Wide type;
+};
+template <> struct DirectSum<double> {
+  typedef double type;
+};
+
+/* A particle of a direct sum: x = a + b, exactly. */
+template <class Real> struct DirectBody {
+  Four<Real> a, b; /* w of a: half the support; of b: mass */
+};
+
+INLINE DirectBody<float> direct_body(const Walk &w, int i, float)
+{
+  const float4 hi = w.points.hi[i], lo = w.points.lo[i];
+  return {{hi.x, hi.y, hi.z, 0.5f * hi.w}, {lo.x, lo.y, lo.z, lo.w}};
+}
+
+INLINE DirectBody<double> direct_body(const Walk &w, int i, double)
+{
+  const double *x = w.x + 3 * (int64_t)i, *o = w.root->origin, il = 1 / w.length;
+  return {{x[0] * il, x[1] * il, x[2] * il, 0.5 * il * w.h[i]},
+          {-o[0] * il, -o[1] * il, -o[2] * il, w.m[i] / w.mass}};
+}
+
+/* All pairs. The force on the pair is m_i m_j (...), its sum is as precise as a double, and what is
+ * divided by is the mass: so momentum is conserved to the rounding of a double. */
+template <class Real>
+static __global__ void __launch_bounds__(DIRECT_BLOCK) direct_sum(const __grid_constant__ Walk w)
+{
+  __shared__ DirectBody<Real> tile[DIRECT_BLOCK];
+  const int i = (int)(blockIdx.x * DIRECT_BLOCK + threadIdx.x);
+  const DirectBody<Real> me = direct_body(w, min(i, w.n - 1), Real());
+  double total[3] = {0, 0, 0}, phi = pair_own(me.b.w * me.b.w, me.a.w + me.a.w);
+  for (int from = 0; from < w.n; from += DIRECT_BLOCK) {
+    const int j = from + (int)threadIdx.x, end = min(DIRECT_BLOCK, w.n - from);
+    typename DirectSum<Real>::type sum[3] = {};
+    Real potential = 0;
+    __syncthreads();
+    if (j < w.n) tile[threadIdx.x] = direct_body(w, j, Real());
+    __syncthreads();
+#pragma unroll 4
+    for (int k = 0; k < end; k++) {
+      const Four<Real> a = tile[k].a, b = tile[k].b;
+      const Real dx = a.x - me.a.x + (b.x - me.b.x), dy = a.y - me.a.y + (b.y - me.b.y),
+                 dz = a.z - me.a.z + (b.z - me.b.z);
+      Real p;
+      const Real f = pair_soft(dx, dy, dz, me.b.w * b.w, me.a.w + a.w, &p);
+      add(sum, product(f, dx)), add(sum + 1, product(f, dy)), add(sum + 2, product(f, dz));
+      potential += p;
+    }
+    for (int d = 0; d < 3; d++) total[d] += whole(sum[d]);
+    phi += potential;
+  }
+  if (i >= w.n) return;
+  const double scale = w.G * w.mass / w.length, over = me.b.w > 0 ? w.mass / w.m[i] : 0;
+  for (int d = 0; d < 3; d++) w.pull[3 * (int64_t)i + d] = scale / w.length * over * total[d];
+  w.phi[i] = scale * over * phi;
+}
+
+/* What the tree's errors leave over (recoil.h): blocks take the particles in turns, a binary tree
+ * joins the threads of a block, one block more joins the blocks: the same bits on every card. */
+INLINE void recoil_add(RecoilForce *o, const Walk &w, const Recoil *, int64_t i)
+{
+  recoil_add_force(o, w.m[i], w.x + 3 * i, w.pull + 3 * i);
+}
+
+INLINE void recoil_add(RecoilTorque *o, const Walk &w, const Recoil *k, int64_t i)
+{
+  recoil_add_torque(o, k, w.m[i], w.x + 3 * i, w.pull + 3 * i);
+}
+
+INLINE void recoil_merge(RecoilForce *a, const RecoilForce *b) { recoil_merge_force(a, b); }
+INLINE void recoil_merge(RecoilTorque *a, const RecoilTorque *b) { recoil_merge_torque(a, b); }
+INLINE void recoil_keep(Recoil *k, const RecoilForce *o) { *k = recoil_mean(o); }
+INLINE void recoil_keep(Recoil *k, const RecoilTorque *o) { recoil_turn(k, o); }
+
+template <class Sum> INLINE void recoil_join(Sum *mine)
+{
+  __shared__ Sum all[RECOIL_THREADS];
+  const unsigned t = threadIdx.x;
+  all[t] = *mine;
+  for (unsigned half = RECOIL_THREADS / 2; half; half /= 2) {
+    __syncthreads();
+    if (t < half) recoil_merge(all + t, all + t + half);
+  }
+  if (t == 0) *mine = all[0];
+}
+
+template <class Sum>
+static __global__ void recoil_parts(const __grid_constant__ Walk w, const Recoil *k, Sum *part)
+{
+  Sum o = {};
+  for (int64_t i = (int64_t)blockIdx.x * RECOIL_THREADS + threadIdx.x; i < w.n;
+       i += RECOIL_BLOCKS * RECOIL_THREADS)
+    recoil_add(&o, w, k, i);
+  recoil_join(&o);
+  if (threadIdx.x == 0) part[blockIdx.x] = o;
+}
+
+template <class Sum> static __global__ void recoil_all(const Sum *part, Recoil *k)
+{
+  Sum o = {};
+  for (int b = (int)threadIdx.x; b < RECOIL_BLOCKS; b += RECOIL_THREADS) recoil_merge(&o, part + b);
+  recoil_join(&o);
+  if (threadIdx.x == 0) recoil_keep(k, &o);
+}
+
+/* Held dimensions feel nothing. */
+static __global__ void add_pull(const __grid_constant__ Walk w, const Recoil *k, double *acc,
+                                int dimension)
+{
+  const int64_t i = (int64_t)blockIdx.x * blockDim.x + threadIdx.x;
+  if (i >= w.n) return;
+  double *a = w.pull + 3 * i;
+  if (k) recoil_take(k, w.x + 3 * i, a);
+  for (int d = dimension; d < 3; d++) a[d] = 0;
+  for (int d = 0; d < 3; d++) acc[3 * i + d] += a[d];
+}
+
+int cuda_gravity_open(Sim *sim, Err *err)
+{
+  CudaGravity *g = (CudaGravity *)calloc(1, sizeof *g);
+  cuda_of(sim)->gravity = g;
+  if (!g) return err_set(err, "not enough memory");
+  if (sim->par.gravity != PARAM_TREE) return 0;
+  if (cuda_alloc(sim, (void **)&g->recoil, sizeof *g->recoil, err) ||
+      cuda_alloc(sim, (void **)&g->force, RECOIL_BLOCKS * sizeof *g->force, err) ||
+      cuda_alloc(sim, (void **)&g->torque, RECOIL_BLOCKS * sizeof *g->torque, err))
+    return -1;
+  return 0;
+}
+
+void cuda_gravity_close(Sim *sim)
+{
+  CudaGravity *g = cuda_of(sim)->gravity;
+  if (!g) return;
+  cuda_free(g->recoil), cuda_free(g->force), cuda_free(g->torque);
+  free(g);
+  cuda_of(sim)->gravity = NULL;
+}
+
+/* Particles a warp: 32 share a walk best, fewer when there would not be work for the card. */
+static int chunk_of(long n)
+{
+  int chunk = 32;
+  while (chunk > 8 && n / chunk < FEW_WARPS) chunk /= 2;
+  return chunk;
+}
+
+static Walk walk_of(const Sim *sim)
+{
+  const Cuda *c = cuda_of(sim);
+  const State *s = &sim->s;
+  Walk w = {c->tree, c->x,           c->root,      s->x,       s->m,     s->h,      c->pull,
+            s->phi,  c->unit.length, c->unit.mass, sim->par.G, INFINITY, (int)s->n, chunk_of(s->n)};
+  if (sim->par.theta > 0) w.over_theta = (float)(1 / sim->par.theta);
+  return w;
+}
+
+static void tree(Sim *sim, const Walk &w, int single)
+{
+  Cuda *c = cuda_of(sim);
+  CudaGravity *g = c->gravity;
+  CudaError *error = &c->error;
+  LAUNCH(single ? walk_tree<float> : walk_tree<double>,
+         launch_blocks((size_t)w.n, (unsigned)w.chunk), 32, 0, c->stream, w);
+  LAUNCH(recoil_parts<RecoilForce>, RECOIL_BLOCKS, RECOIL_THREADS, 0, c->stream, w, g->recoil,
+         g->force);
+  LAUNCH(recoil_all<RecoilForce>, 1, RECOIL_THREADS, 0, c->stream, g->force, g->recoil);
+  LAUNCH(recoil_parts<RecoilTorque>, RECOIL_BLOCKS, RECOIL_THREADS, 0, c->stream, w, g->recoil,
+         g->torque);
+  LAUNCH(recoil_all<RecoilTorque>, 1, RECOIL_THREADS, 0, c->stream, g->torque, g->recoil);
+}
+
+int cuda_gravity(Sim *sim, Err *err)
+{
+  Cuda *c = cuda_of(sim);
+  CudaError *error = &c->error;
+  const int single = sim->par.precision == PARAM_MIXED, walks = sim->par.gravity == PARAM_TREE;
+  const Walk w = walk_of(sim);
+  const unsigned blocks = launch_blocks((size_t)w.n, DIRECT_BLOCK);
+  if (sim->par.gravity == PARAM_NONE) return 0;
+  if (walks)
+    tree(sim, w, single);
+  else
+    LAUNCH(single ? direct_sum<float> : direct_sum<double>, blocks, DIRECT_BLOCK, 0, c->stream, w);
+  LAUNCH(add_pull, blocks, DIRECT_BLOCK, 0, c->stream, w, walks ? c->gravity->recoil : NULL,
+         sim->s.acc, sim->s.dimension);
+  return launch_failed(error, err);
+}

@@ -1,0 +1,267 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Gravity of the CUDA backend against lib/gravity: the walk with a closed angle and the direct sum
+ * are the host's direct sum, in double precision to rounding, in single to 1e-5; at theta 0.7 the
+ * median error is below 1e-3; no piece of the curve costs what it should not; momentum. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <algorithm>
+#include "solver/cuda/gravity.cu"
+#include "gravity_lab.cuh"
+extern "C" {
+#include <cmocka.h>
+}
+
+static const int PRECISIONS[] = {PARAM_MIXED, PARAM_DOUBLE};
+
+static double size3(const double *a) { return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); }
+
+typedef struct {
+  double median, p99, max, phi; /* phi: the largest, relative to the largest |phi| or G m/h */
+} Errors;
+
+/* |a - b|/|b|, where |b| is below its mean relative to that. */
+static Errors compare(const Cloud *c, const double *a, const double *b, const double *pa,
+                      const double *pb)
+{
+  const long n = c->n;
+  std::vector<double> r((size_t)n);
+  Errors e = {};
+  double mean = 0, top = 0;
+  for (long i = 0; i < n; i++) {
+    mean += size3(b + 3 * i) / (double)n;
+    top = fmax(top, fmax(fabs(pb[i]), LAB_G * c->m[i] / c->h[i]));
+  }
+  for (long i = 0; i < n; i++) {
+    const double d[3] = {a[3 * i] - b[3 * i], a[3 * i + 1] - b[3 * i + 1],
+                         a[3 * i + 2] - b[3 * i + 2]};
+    r[(size_t)i] = size3(d) > 0 ? size3(d) / fmax(size3(b + 3 * i), mean) : 0;
+    if (pa[i] != pb[i]) e.phi = fmax(e.phi, fabs(pa[i] - pb[i]) / top);
+    if (std::isnan(r[(size_t)i]) || std::isnan(pa[i])) r[(size_t)i] = 1e300;
+  }
+  std::sort(r.begin(), r.end());
+  e.median = r[(size_t)n / 2], e.p99 = r[(size_t)(n - 1) * 99 / 100], e.max = r[(size_t)n - 1];
+  return e;
+}
+
+/* The device against direct sums of the host. */
+static Errors against_direct(GravityLab *l, double theta, int gravity, int precision)
+{
+  const size_t n = (size_t)l->c.n;
+  std::vector<double> a(3 * n), phi(n);
+  Err err;
+  if (gravity_direct(l->c.n, l->c.x, l->c.m, l->c.h, LAB_G, a.data(), phi.data(), &err))
+    fail_msg("%s", err.text);
+  lab_run(l, theta, gravity, precision);
+  return compare(&l->c, l->a, a.data(), l->phi, phi.data());
+}
+
+static Cloud shape(int k, long n, int seed, double spread)
+{
+  return cloud_new((CloudShape)k, n, seed, spread);
+}
+
+/* All shapes, sizes around those of warps, chunks and tiles. */
+static void closed_angle_is_direct(void **state)
+{
+  (void)state;
+  const long sizes[] = {1, 2, 33, 130};
+  for (int k = 0; k < SHAPES; k++)
+    for (long n : sizes)
+      for (int precision : PRECISIONS) {
+        const double good = precision == PARAM_DOUBLE ? 1e-12 : 1e-5;
+        GravityLab *l = lab_new(shape(k, n, 3, 5));
+        for (int gravity : {PARAM_DIRECT, PARAM_TREE}) {
+          const Errors e = against_direct(l, 0, gravity, precision);
+          if (n == 1) assert_true(l->phi[0] == 0 && size3(l->a) == 0);
+          if (!(e.max < good && e.phi < good))
+            fail_msg("shape %d, %ld, method %d, precision %d: %g %g", k, n, gravity, precision,
+                     e.max, e.phi);
+        }
+        lab_free(l);
+      }
+}
+
+/* At theta 0.7: spheres in contact, a sphere in debris, clouds; and no worse than the host's tree,
+ * whose groups are larger. */
+static void errors_of_the_tree(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 5; k++) {
+    GravityLab *l = lab_new(k < 2 ? lab_spheres(3000, k)
+                                  : shape(k == 2   ? SPHERE
+                                          : k == 3 ? TWO_BODIES
+                                                   : CLUSTERS,
+                                          3000, 5, 2));
+    const size_t n = (size_t)l->c.n;
+    std::vector<double> a(3 * n), phi(n);
+    const GravityOptions o = {0.7, LAB_G, 1};
+    Err err;
+    const Errors e = against_direct(l, 0.7, PARAM_TREE, PARAM_MIXED);
+    if (!(e.median < 1e-3 && e.p99 < 1e-2 && e.phi < 2e-3))
+      fail_msg("cloud %d: median %g, 99 %% %g, phi %g", k, e.median, e.p99, e.phi);
+    if (gravity_direct(l->c.n, l->c.x, l->c.m, l->c.h, LAB_G, a.data(), phi.data(), &err) ||
+        gravity_tree(&l->host, l->c.x, l->c.m, l->c.h, &o, l->a, l->phi, &err))
+      fail_msg("%s", err.text);
+    const Errors host = compare(&l->c, l->a, a.data(), l->phi, phi.data());
+    if (!(e.median < 1.1 * host.median))
+      fail_msg("cloud %d: %g, host %g", k, e.median, host.median);
+    lab_free(l);
+  }
+}
+
+/* With quadrupoles the error goes as theta^4: slope of ln median 3.4 .. 4.8. */
+static void error_falls_as_theta_to_the_fourth(void **state)
+{
+  (void)state;
+  GravityLab *l = lab_new(shape(SPHERE, 4000, 6, 1));
+  const Errors low = against_direct(l, 0.4, PARAM_TREE, PARAM_DOUBLE),
+               high = against_direct(l, 0.8, PARAM_TREE, PARAM_DOUBLE);
+  const double slope = log(high.median / low.median) / log(2);
+  if (!(slope > 3.4 && slope < 4.8)) fail_msg("slope %g", slope);
+  lab_free(l);
+}
+
+/* A node that reaches into the softening is opened: beside a dense clump of small h, a target of
+ * large h feels each of its particles softened. */
+static void soft_targets_open_dense_nodes(void **state)
+{
+  (void)state;
+  Cloud c = shape(CLUSTERS, 2000, 7, 1);
+  for (long i = 0; i < c.n; i++) c.h[i] = c.id[i] % 5 ? 1e4 : 1e6;
+  GravityLab *l = lab_new(c);
+  const Errors e = against_direct(l, 0.9, PARAM_TREE, PARAM_MIXED);
+  if (!(e.p99 < 1e-2 && e.phi < 1e-3)) fail_msg("99 %% %g, phi %g", e.p99, e.phi);
+  lab_free(l);
+}
+
+/* Single against double precision at any angle of opening, SI values from a pebble to a galaxy, a
+ * thousand radii off the origin. */
+static void single_precision_of_any_size(void **state)
+{
+  (void)state;
+  const double length[] = {1e-9, 1, 1e15}, mass[] = {1e-30, 1, 1e25}, shift[] = {0, 1e9, 0};
+  for (int k : {SPHERE, TWO_BODIES, CLUSTERS, LINE, OUTLIER})
+    for (int unit = 0; unit < 3; unit++) {
+      Cloud c = shape(k, 700, 8, 3);
+      for (long i = 0; i < c.n; i++) {
+        c.m[i] *= mass[unit], c.h[i] *= length[unit];
+        for (int d = 0; d < 3; d++) c.x[3 * i + d] = c.x[3 * i + d] * length[unit] + shift[unit];
+      }
+      GravityLab *l = lab_new(c);
+      lab_run(l, 0.7, PARAM_TREE, PARAM_DOUBLE);
+      std::vector<double> a(l->a, l->a + 3 * c.n), phi(l->phi, l->phi + c.n);
+      lab_run(l, 0.7, PARAM_TREE, PARAM_MIXED);
+      const Errors e = compare(&l->c, l->a, a.data(), l->phi, phi.data());
+      if (!(e.max < 1e-5 && e.phi < 1e-5))
+        fail_msg("shape %d, unit %d: %g %g", k, unit, e.max, e.phi);
+      lab_free(l);
+    }
+}
+
+/* Direct sums: pairs cancel to the rounding of a double, in single precision as well. The tree:
+ * what is left over is taken off. The pull is added to acc. */
+static void momentum_is_conserved(void **state)
+{
+  (void)state;
+  for (int k = 0; k < SHAPES; k++)
+    for (int precision : PRECISIONS)
+      for (int gravity : {PARAM_DIRECT, PARAM_TREE}) {
+        GravityLab *l = lab_new(shape(k, 300, 2, 5));
+        double p[3] = {0, 0, 0}, size = 0;
+        lab_run(l, 0.7, gravity, precision);
+        for (long i = 0; i < 3 * l->c.n; i++) {
+          p[i % 3] += l->c.m[i / 3] * l->a[i], size += l->c.m[i / 3] * fabs(l->a[i]);
+          assert_true(l->acc[i] == l->c.x[i] + l->a[i]);
+        }
+        if (!(size3(p) <= 3e-14 * size))
+          fail_msg("shape %d, precision %d, method %d: %g", k, precision, gravity, size3(p) / size);
+        lab_free(l);
+      }
+}
+
+/* A component that is held feels nothing at all. */
+static void planes_stay_plane(void **state)
+{
+  (void)state;
+  for (int dimension = 1; dimension < 4; dimension++) {
+    GravityLab *l = lab_new(shape(SPHERE, 100, 2, 5));
+    l->sim.s.dimension = dimension;
+    lab_run(l, 0.7, PARAM_TREE, PARAM_MIXED);
+    for (long i = 0; i < l->c.n; i++)
+      for (int d = 0; d < 3; d++) assert_true((l->a[3 * i + d] == 0) == (d >= dimension));
+    lab_free(l);
+  }
+}
+
+static void massless_particles_do_not_act(void **state)
+{
+  (void)state;
+  Cloud c = shape(SPHERE, 300, 2, 5);
+  for (long i = 0; i < c.n; i++) c.m[i] = 0;
+  GravityLab *l = lab_new(c);
+  for (int precision : PRECISIONS)
+    for (int gravity : {PARAM_DIRECT, PARAM_TREE}) {
+      lab_run(l, 0.7, gravity, precision);
+      for (long i = 0; i < c.n; i++) assert_true(size3(l->a + 3 * i) == 0 && l->phi[i] == 0);
+    }
+  lab_free(l);
+}
+
+static __global__ void jumps(const __grid_constant__ Walk w, int *cut)
+{
+  const int i = (int)(blockIdx.x * blockDim.x + threadIdx.x);
+  if (i < w.n) cut[i] = walk_jumps(w, i);
+}
+
+/* The pieces of a curve through spheres are compact: their boxes are a few h long, and few are cut
+ * in more than there must be. Through debris the curve leaps everywhere, and is cut rarely. */
+static void pieces_are_compact(void **state)
+{
+  (void)state;
+  for (int debris = 0; debris < 2; debris++) {
+    GravityLab *l = lab_new(lab_spheres(20000, debris));
+    CudaError *error = &l->cuda.error;
+    const Walk w = walk_of(&l->sim);
+    const long n = l->c.n;
+    std::vector<int> cut((size_t)n);
+    int *device = lab_up(l, cut.data(), (size_t)n);
+    LAUNCH(jumps, launch_blocks((size_t)n, 128), 128, 0, 0, w, device);
+    lab_down(l, cut.data(), device, (size_t)n);
+    cudaFree(device);
+    long pieces = 0, wide = 0, sphere = 0;
+    for (long from = 0, end; from < n; from = end) {
+      double longest = 0;
+      for (end = from + 1; end < n && end % 32 && !cut[(size_t)end - 1];) end++;
+      for (int d = 0; d < 3; d++) {
+        double lo = INFINITY, hi = -INFINITY;
+        for (long i = from; i < end; i++)
+          lo = fmin(lo, l->c.x[3 * i + d]), hi = fmax(hi, l->c.x[3 * i + d]);
+        longest = fmax(longest, hi - lo);
+      }
+      pieces++, sphere += l->c.id[from] < n / 2 || !debris;
+      wide += longest > 4 * l->c.h[0] && (l->c.id[from] < n / 2 || !debris);
+    }
+    if (!(wide < 0.05 * (double)sphere && pieces < (debris ? 2.5 : 1.25) * (double)n / 32))
+      fail_msg("debris %d: %ld of %ld wide, %ld pieces of %ld", debris, wide, sphere, pieces, n);
+    lab_free(l);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(closed_angle_is_direct),
+      cmocka_unit_test(errors_of_the_tree),
+      cmocka_unit_test(error_falls_as_theta_to_the_fourth),
+      cmocka_unit_test(soft_targets_open_dense_nodes),
+      cmocka_unit_test(single_precision_of_any_size),
+      cmocka_unit_test(momentum_is_conserved),
+      cmocka_unit_test(planes_stay_plane),
+      cmocka_unit_test(massless_particles_do_not_act),
+      cmocka_unit_test(pieces_are_compact),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
