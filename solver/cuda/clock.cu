@@ -53,7 +53,8 @@ void cuda_clock(Sim *sim)
 {
   Cuda *c = cuda_of(sim);
   CudaError *error = &c->error;
-  if (!c->clock) return;
+  if (!c->clock || c->clock->count == 0) return;
+  CHECK(cudaEventSynchronize(c->clock->span[c->clock->count - 1].to));
   for (int k = 0; k < c->clock->count; k++) {
     const Span *span = &c->clock->span[k];
     float ms = 0;
