@@ -37,10 +37,7 @@ cxxflags = -std=c++17 $(filter-out -std=c11 -Wpedantic -Wshadow,$(cflags)) -Wno-
 libs = $(LDFLAGS) $(hdf5lib:%=-L%) -lhdf5 -lconfig -lgsl -lgslcblas -lpng -lz -lm $(cudalibs) -lpthread
 
 comma := ,
-cuda := $(if $(wildcard solver/cuda/search.cu),$(wildcard solver/cuda/*.cu)) # until all parts are there
-ifeq ($(cuda),)
-NVCC :=
-endif
+cuda := $(wildcard solver/cuda/*.cu)
 # The runtime is linked statically: the same programs start where there is no GPU and no driver.
 ifneq ($(NVCC),)
 toolkit := $(patsubst %/bin/nvcc,%,$(realpath $(NVCC)))
@@ -75,8 +72,12 @@ $(programs:%=$(BIN)/%): $B/libsolver.a $B/libbreccia.a
 $B/tests/test_%: $B/tests/test_%.o $B/libsolver.a $B/libbreccia.a
 	$(CC) $(cflags) -o $@ $^ -lcmocka $(libs)
 # Tests of CUDA code run without a GPU: tests/host/ stands in for the toolkit. All tests on the GPU, for check-gpu.
+$(cuda_tests:%=$B/tests/%): whole = -Wl,-u,backend_cuda
 $(cu_tests:%=$B/tests/%) $(cuda_tests:%=$B/tests/%): %: %.o $B/libhost.a $B/libsolver.a $B/libbreccia.a
-	$(CXX) $(cxxflags) -o $@ $^ -lcmocka $(libs)
+	$(CXX) $(cxxflags) $(whole) -o $@ $^ -lcmocka $(libs)
+$B/host/tests/test_%: $B/tests/test_%.o $B/libhost.a $B/libsolver.a $B/libbreccia.a
+	@mkdir -p $(@D)
+	$(CXX) $(cxxflags) -Wl,-u,backend_cuda -o $@ $^ -lcmocka $(libs)
 $B/gpu/tests/test_%: $B/tests/test_%.o $B/libsolver.a $B/libbreccia.a
 	@mkdir -p $(@D)
 	$(CC) $(cflags) -o $@ $^ -lcmocka $(libs)
@@ -126,6 +127,10 @@ $B/flags: FORCE
 check: all $(tests:%=$B/tests/%)
 	@BIN=$(abspath $(BIN)) B=$(abspath $B) tests/run '$(T)'
 
+# The solver's tests on the CUDA backend as the host has it: slow.
+check-host: $(c_tests:%=$B/host/tests/%)
+	@BIN=$(abspath $(BIN)) B=$(abspath $B/host) BRECCIA_TEST_DEVICE=cuda tests/run 'test_$(T)'
+
 # The same tests, and those of CUDA code, on a GPU.
 check-gpu: all $(filter-out $B/gpu/tests/test_host_%,$(tests:%=$B/gpu/tests/%))
 	@BIN=$(abspath $(BIN)) B=$(abspath $B/gpu) BRECCIA_TEST_DEVICE=cuda tests/run '$(T)'
@@ -165,6 +170,6 @@ help:
 	@echo 'make asan=1 check     the same with address and undefined-behaviour sanitizers'
 
 FORCE:
-.PHONY: all check check-gpu bench lint docs deps install clean help FORCE
+.PHONY: all check check-gpu check-host bench lint docs deps install clean help FORCE
 .DELETE_ON_ERROR:
 .SECONDARY:

@@ -80,6 +80,47 @@ static inline void lab_sums(Sim *sim, Sums *out)
   if (sim_sums(sim, out, &err)) fail_msg("%s", err.text);
 }
 
+/* lab_state: the State as it is now, its arrays on the host, wherever the backend has them;
+ * lab_keep: these arrays back; lab_forget: freed. */
+static inline State lab_state(Sim *sim)
+{
+  State s = sim->s;
+  const size_t n = (size_t)s.n;
+  Err err;
+#define LAB_DOWN(TYPE, MEMBER, WIDTH, ...)                                                         \
+  s.MEMBER = sim->s.MEMBER ? calloc(n * (WIDTH), sizeof(TYPE)) : NULL;                             \
+  if (s.MEMBER && sim->b->copy(sim, s.MEMBER, sim->s.MEMBER, n * (WIDTH) * sizeof(TYPE), &err))    \
+    fail_msg("%s", err.text);
+  ALL_FIELDS(LAB_DOWN)
+  MOVED_FIELDS(LAB_DOWN)
+  WORK_FIELDS(LAB_DOWN)
+#undef LAB_DOWN
+  s.material = sim->material, s.flaw = NULL;
+  return s;
+}
+
+static inline void lab_keep(Sim *sim, const State *s)
+{
+  const size_t n = (size_t)s->n;
+  Err err;
+#define LAB_UP(TYPE, MEMBER, WIDTH, ...)                                                           \
+  if (s->MEMBER && sim->b->copy(sim, sim->s.MEMBER, s->MEMBER, n * (WIDTH) * sizeof(TYPE), &err))  \
+    fail_msg("%s", err.text);
+  ALL_FIELDS(LAB_UP)
+  MOVED_FIELDS(LAB_UP)
+  WORK_FIELDS(LAB_UP)
+#undef LAB_UP
+}
+
+static inline void lab_forget(State *s)
+{
+#define LAB_FREE(TYPE, MEMBER, ...) free(s->MEMBER);
+  ALL_FIELDS(LAB_FREE)
+  MOVED_FIELDS(LAB_FREE)
+  WORK_FIELDS(LAB_FREE)
+#undef LAB_FREE
+}
+
 /* lab_lattice: positions of a cubic lattice of spacing dx whose points satisfy inside(x, data);
  * counts when x is NULL. */
 static inline long lab_lattice(double dx, int half, int dimension,

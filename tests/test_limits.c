@@ -48,7 +48,8 @@ static void limit(const char *want, Parts *p, Param par, int steps, double until
   double expect = 0;
   lab_open(&sim, &par, p);
   for (int k = 0; k < steps; k++) {
-    const State *s = &sim.s;
+    State now = lab_state(&sim);
+    const State *s = &now;
     expect = INFINITY;
     for (long i = 0; i < s->n; i++) {
       const double *a = &s->a[3 * i];
@@ -60,6 +61,7 @@ static void limit(const char *want, Parts *p, Param par, int steps, double until
                              sqrt(s->h[i] / sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]));
       expect = fmin(expect, one);
     }
+    lab_forget(&now);
     if (sim_advance(&sim, until, &done, &err)) fail_msg("%s", err.text);
   }
   print_message("%s: %.4g s, particle %ld\n", sim_limit_name(done.limit), done.dt, (long)done.id);
@@ -118,10 +120,11 @@ static void broken(int what, const char *message)
   char id[32];
   lab_open(&sim, &par, p);
   assert_return_code(sim_advance(&sim, 1e9, &done, &err), 0);
-  snprintf(id, sizeof id, "particle %ld of body 0", (long)sim.s.id[7]);
-  double *const at[] = {&sim.s.x[22], &sim.s.v[22], &sim.s.rho[7], &sim.s.u[7],
-                        &sim.s.h[7],  &sim.s.a[22], &sim.s.s[44]};
+  State s = lab_state(&sim);
+  snprintf(id, sizeof id, "particle %ld of body 0", (long)s.id[7]);
+  double *const at[] = {&s.x[22], &s.v[22], &s.rho[7], &s.u[7], &s.h[7], &s.a[22], &s.s[44]};
   *at[what] = what == 2 ? -1 : what == 4 ? 0 : NAN;
+  lab_keep(&sim, &s), lab_forget(&s);
   assert_int_equal(sim_store(&sim, p, &err), -1);
   assert_non_null(strstr(err.text, message));
   assert_int_equal(sim_advance(&sim, 1e9, &done, &err), -1);

@@ -281,7 +281,9 @@ static void yield(void **state)
     for (long i = 0; i < p->n; i++)
       assert_true(sqrt(3 * tensor_j2(passes_stress(&p->s[6 * i]))) <= .02 * (1 + 1e-12));
     assert_true(p->s[6 * centre + 1] > .99 * .02 / sqrt(3));
-    for (long i = 0; i < 3 * p->n; i++) sim.s.v[i] *= -1;
+    State s = lab_state(&sim);
+    for (long i = 0; i < 3 * p->n; i++) s.v[i] *= -1;
+    lab_keep(&sim, &s), lab_forget(&s);
     lab_run(&sim, .35); /* .05 * .3 < 2 Y/sqrt(3)/mu: unloading is elastic */
     lab_store(&sim, p);
     back[k] = p->s[6 * centre + 1];

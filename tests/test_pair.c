@@ -155,9 +155,8 @@ static PairVector between(const double *a, const double *b)
 }
 
 /* Loop B over all pairs. */
-static void brute_force(const Sim *sim, long i, const PairRun *run, Brute *o)
+static void brute_force(const Sim *sim, const State *s, long i, const PairRun *run, Brute *o)
 {
-  const State *s = &sim->s;
   PairBody me = passes_body(s, i);
   o->signal = fmax(o->signal, 2 * s->cl[i]);
   for (long j = 0; j < s->n; j++) {
@@ -173,9 +172,8 @@ static void brute_force(const Sim *sim, long i, const PairRun *run, Brute *o)
 }
 
 /* Loop A and the kernel sums over all pairs. */
-static void brute_flow(const Sim *sim, long i, const PairRun *run, Brute *o)
+static void brute_flow(const Sim *sim, const State *s, long i, const PairRun *run, Brute *o)
 {
-  const State *s = &sim->s;
   int line = run->dimension == 1;
   double raw[9] = {0}, keep[16];
   Sym m = {0, 0, 0, 0, 0, 0};
@@ -212,30 +210,35 @@ static double stamp(int kern, int dim, int solid, const char *density)
 #define WORD(CAPITAL, NAME, ...) #NAME,
       KERNELS(WORD)};
   Parts *p = cloud(150, dim, solid ? SOLID : FLUID);
-  Param par = lab_param("gravity.method=none", density, strcat(kernel, words[kern]), NULL);
+  Param par = lab_param("gravity.method=none", "precision=double", density,
+                        strcat(kernel, words[kern]), NULL);
   PairRun run = {kernel_sigma(kern, dim), par.alpha, par.beta, dim};
   Sim sim;
+  State s;
   Err err;
   double worst = 0;
   lab_open(&sim, &par, p);
+  s = lab_state(&sim);
   for (long i = 0; i < 3 * p->n; i++)
-    if (i % 3 < dim) sim.s.y[i] += .05 * noise(i, 30) + 100, sim.s.vp[i] += .1 * noise(i, 31);
+    if (i % 3 < dim) s.y[i] += .05 * noise(i, 30) + 100, s.vp[i] += .1 * noise(i, 31);
+  lab_keep(&sim, &s), lab_forget(&s);
   if (sim.b->search(&sim, &err)) fail_msg("%s", err.text);
   sim.b->gradient(&sim), sim.b->density(&sim), sim.b->force(&sim);
+  s = lab_state(&sim);
   for (long i = 0; i < p->n; i++) {
     Brute b = {0};
-    brute_flow(&sim, i, &run, &b), brute_force(&sim, i, &run, &b);
-    for (int d = 0; d < 3; d++) worst = off(worst, sim.s.acc[3 * i + d], b.acc[d], b.force);
-    worst = off(worst, sim.s.du[i], b.du, b.work);
-    worst = off(worst, sim.s.divv[i], b.divv, b.flow);
-    worst = off(worst, sim.s.rho[i], b.rho, b.rho),
-    worst = off(worst, sim.s.delta[i], b.delta, b.delta);
-    worst = off(worst, sim.s.signal[i], b.signal, b.signal);
+    brute_flow(&sim, &s, i, &run, &b), brute_force(&sim, &s, i, &run, &b);
+    for (int d = 0; d < 3; d++) worst = off(worst, s.acc[3 * i + d], b.acc[d], b.force);
+    worst = off(worst, s.du[i], b.du, b.work);
+    worst = off(worst, s.divv[i], b.divv, b.flow);
+    worst = off(worst, s.rho[i], b.rho, b.rho), worst = off(worst, s.delta[i], b.delta, b.delta);
+    worst = off(worst, s.signal[i], b.signal, b.signal);
     for (int k = 0; k < 9 && solid; k++)
-      worst = off(worst, 1e-3 * sim.s.g[9 * i + k], 1e-3 * b.g[k],
-                  b.flow); /* the inverse: det > 1e-2 */
-    assert_int_equal(sim.s.nngb[i], b.near);
+      worst =
+          off(worst, 1e-3 * s.g[9 * i + k], 1e-3 * b.g[k], b.flow); /* the inverse: det > 1e-2 */
+    assert_int_equal(s.nngb[i], b.near);
   }
+  lab_forget(&s);
   sim_close(&sim);
   part_free(p);
   return worst;
@@ -264,8 +267,9 @@ static double linear(int dim, double *raw)
   double worst = 0, dx = 1. / (double)side;
   for (int d = 0; d < dim; d++) n *= side;
   Parts *p = lab_parts(n, dim, SOLID);
-  Param par = lab_param("gravity.method=none", NULL);
+  Param par = lab_param("gravity.method=none", "precision=double", NULL);
   Sim sim;
+  State s;
   for (long i = 0; i < n; i++) {
     long cell[3] = {i % side, i / side % side, i / side / side};
     for (int d = 0; d < dim; d++) p->x[3 * i + d] = (cell[d] + .6 * noise(i, d)) * dx;
@@ -276,22 +280,26 @@ static double linear(int dim, double *raw)
   }
   lab_open(&sim, &par, p);
   *raw = 0;
+  s = lab_state(&sim);
   for (long i = 0; i < n; i++) {
     int inside = 1;
     for (int d = 0; d < dim; d++) {
-      double depth = .5 - fabs(sim.s.x[3 * i + d] - .5);
+      double depth = .5 - fabs(s.x[3 * i + d] - .5);
       inside &= depth > .25;
     }
     for (int k = 0; k < 9; k++)
-      if (k / 3 < dim && k % 3 < dim) worst = fmax(worst, fabs(sim.s.g[9 * i + k] - a[k]));
+      if (k / 3 < dim && k % 3 < dim) worst = fmax(worst, fabs(s.g[9 * i + k] - a[k]));
     if (!inside) continue;
     double trace = a[0] + (dim > 1 ? a[4] : 0) + (dim > 2 ? a[8] : 0);
-    *raw += fabs(sim.s.divv[i] - trace), inner++;
+    *raw += fabs(s.divv[i] - trace), inner++;
   }
   *raw /= inner;
-  for (long i = 0; i < 3 * n; i++) sim.s.v[i] = i % 3 < dim ? 7 : 0;
+  for (long i = 0; i < 3 * n; i++) s.v[i] = i % 3 < dim ? 7 : 0;
+  lab_keep(&sim, &s), lab_forget(&s);
   sim.b->gradient(&sim);
-  for (long i = 0; i < n; i++) assert_true(sim.s.divv[i] == 0);
+  s = lab_state(&sim);
+  for (long i = 0; i < n; i++) assert_true(s.divv[i] == 0);
+  lab_forget(&s);
   sim_close(&sim);
   part_free(p);
   return worst;
