@@ -34,6 +34,7 @@
 /* What only a checkpoint holds: the derivatives that the next step starts from. */
 #define CHECKPOINT_FIELDS(F) \
   F(double,  a,      3, "Acceleration",     "m/s^2",    "solver",   "acceleration") \
+  F(double,  pull,   3, "GravityAcceleration", "m/s^2", "solver", "gravity as last evaluated, part of it (gravity.every > 1)") \
   F(double,  dudt,   1, "EnergyRate",       "W/kg",     "solver",   "du/dt of the last force loop") \
   F(double,  dqdt,   1, "ViscousHeating",   "W/kg",     "solver",   "du/dt without the local work: viscosity, mostly") \
   F(double,  divv,   1, "VelocityDivergence", "1/s",    "solver",   "divergence of the velocity, uncorrected sum") \

@@ -63,7 +63,7 @@ struct backend {
   void (*pass)(Sim *sim, int pass, const Step *step);
   /* gradient: loop A at y with v, ha and volumes m/rhoa: divv and (solids) g, cm. density: kernel
    * sums at x: rho, delta, and rhoa, the mean of rho before and after. force: loop B at x with
-   * vp: acc, du, signal, nngb. gravity: adds to acc, sets phi. */
+   * vp: acc, du, signal, nngb. gravity: when it is due sets pull and phi; adds pull to acc. */
   void (*gradient)(Sim *sim);
   void (*density)(Sim *sim);
   void (*force)(Sim *sim);
@@ -93,6 +93,10 @@ struct Sim {
   char about[256]; /* the machine, as the backend describes it */
   double time, dt; /* s; dt: the next step as the criteria allow */
   long step;
+  /* gravity.every: whether this step ends with an evaluation of gravity; steps from the last one to
+   * the next, as planned, and so far; the length of these and for how long it has kicked [s] */
+  int pull_due, outer_steps, outer;
+  double outer_time, outer_kick;
   int slots; /* saved states that the integrator needs */
   BackendTimer timer[TIMERS];
 };

@@ -17,7 +17,7 @@ enum { PARAM_MIXED, PARAM_DOUBLE };
 typedef struct {
   int integrator, kernel, precision, density, energy, strength, damage;
   double energy_floor, density_floor;
-  int gravity;
+  int gravity, gravity_every;
   double theta, G;
   double alpha, beta;
   int smoothing;

@@ -24,6 +24,7 @@ typedef struct {
       omega[BODIES][3]; /* frames that are damped towards */
   int slot, rates;      /* saved arrays to work on; whether rates are saved instead of the state */
   double weight[3];     /* of the saved rates 1..3 in a combination */
+  double pull;          /* weight of gravity in this kick, over that of the other forces, minus 1 */
 } Step;
 
 /* Why a step is as short as it is; what conserved.tsv and the log name. */
@@ -203,10 +204,16 @@ HD PairBody passes_body(const State *s, long i)
   return b;
 }
 
+/* passes_kick: the acceleration of a kick, component j: gravity counts 1 + k->pull times. */
+HD double passes_kick(const State *s, const Step *k, long j)
+{
+  return k->pull != 0 ? s->a[j] + k->pull * s->pull[j] : s->a[j];
+}
+
 /* kick: v += a dt. */
 HD void pass_kick(const State *s, const Step *k, long i)
 {
-  for (int d = 0; d < 3; d++) s->v[3 * i + d] += s->a[3 * i + d] * k->dt;
+  for (int d = 0; d < 3; d++) s->v[3 * i + d] += passes_kick(s, k, 3 * i + d) * k->dt;
 }
 
 /* passes_follow: h after dt as it follows the density (004 eq. 2.36), within its limits. */
@@ -234,7 +241,7 @@ HD void pass_drift(const State *s, const Step *k, long i)
   for (int d = 0; d < 3; d++) {
     s->y[3 * i + d] = s->x[3 * i + d] + s->v[3 * i + d] * half;
     s->x[3 * i + d] += s->v[3 * i + d] * k->dt;
-    s->vp[3 * i + d] = s->v[3 * i + d] + s->a[3 * i + d] * half;
+    s->vp[3 * i + d] = s->v[3 * i + d] + passes_kick(s, k, 3 * i + d) * half;
   }
   s->rhoa[i] = s->rho[i] * exp(-s->divv[i] * half);
   s->ha[i] = s->h[i];
@@ -314,7 +321,7 @@ HD void pass_finish(const State *s, const Step *k, long i)
   if (k->damping > 0) passes_damp(s, k, i, &s->acc[3 * i]);
   for (int d = 0; d < 3; d++) {
     s->a[3 * i + d] = s->acc[3 * i + d];
-    s->v[3 * i + d] += s->a[3 * i + d] * half;
+    s->v[3 * i + d] += passes_kick(s, k, 3 * i + d) * half;
   }
   if (k->energy == 0) s->u[i] += half * (s->dudt[i] + s->du[i]);
   if (k->energy == 1) s->u[i] = s->ue[i];

@@ -49,7 +49,10 @@ static int open_common(Sim *sim, const Param *par, const Parts *p, const char *d
     if (p->body[i] < 0 || p->body[i] >= BODIES)
       return err_set(err, "particle %lld is of body %d: damping knows bodies 0 to %d",
                      (long long)p->id[i], (int)p->body[i], BODIES - 1);
+  if (par->gravity_every > 1 && integrator_of(par->integrator) != &integrator_leapfrog)
+    return err_set(err, "gravity.every = %d needs integrator leapfrog", par->gravity_every);
   sim->par = *par;
+  sim->pull_due = 1;
   sim->time = p->time;
   sim->materials = p->materials;
   sim->slots = integrator_of(par->integrator)->slots;
@@ -68,6 +71,19 @@ int sim_open(Sim *sim, const Param *par, const Parts *p, const char *device, Err
   return 0;
 }
 
+/* Where in its steps gravity stands. */
+static int restart_outer(Sim *sim, const Parts *p, Err *err)
+{
+  double step = part_number(p, "run", "OuterStep"), steps = part_number(p, "run", "OuterSteps");
+  if (part_need(p, "pull", "checkpoint", err)) return -1;
+  sim->outer_time = part_number(p, "run", "OuterTime");
+  sim->outer_kick = part_number(p, "run", "OuterKick");
+  if (!(step >= 0 && steps >= 0 && sim->outer_time >= 0 && sim->outer_kick >= 0))
+    return err_set(err, "the checkpoint lacks the attributes of /Run for gravity.every");
+  sim->outer = (int)step, sim->outer_steps = (int)steps;
+  return 0;
+}
+
 int sim_restart(Sim *sim, const Param *par, const Parts *p, const char *device, Err *err)
 {
   if (open_common(sim, par, p, device, err)) return sim_close(sim), -1;
@@ -82,6 +98,7 @@ int sim_restart(Sim *sim, const Param *par, const Parts *p, const char *device, 
     return err_set(
         err, "the checkpoint lacks the attributes of /Run: it is a snapshot, not a checkpoint");
   }
+  if (par->gravity_every > 1 && restart_outer(sim, p, err)) return sim_close(sim), -1;
   if (sim->b->open(sim, p, err)) return sim_close(sim), -1;
   return 0;
 }
@@ -131,6 +148,19 @@ static int next_limits(Sim *sim, SimStep *next, Err *err)
   return 0;
 }
 
+/* Whether the next step, dt of what is left to an output, ends with an evaluation of gravity: every
+ * so many steps, at log lines, and close to an output in each step, as dt is cut there. */
+static void plan_gravity(Sim *sim, double dt, double left)
+{
+  const Param *p = &sim->par;
+  if (sim->outer == 0) {
+    long log = p->log_every - sim->step % p->log_every;
+    sim->outer_steps = log < p->gravity_every ? (int)log : p->gravity_every;
+    if (left < (p->gravity_every + 1) * dt) sim->outer_steps = 1;
+  }
+  sim->pull_due = dt >= left || sim->outer + 1 >= sim->outer_steps;
+}
+
 int sim_advance(Sim *sim, double until, SimStep *done, Err *err)
 {
   const struct integrator *in = integrator_of(sim->par.integrator);
@@ -151,6 +181,7 @@ int sim_advance(Sim *sim, double until, SimStep *done, Err *err)
   else if (left < 2 * done->dt)
     done->dt = 0.5 * left;
   dt = done->dt;
+  plan_gravity(sim, dt, left);
   if (in->step(sim, &dt, err)) return -1;
   if (dt < done->dt) done->limit = LIMITS + 1, done->id = -1;
   done->dt = dt;
@@ -168,8 +199,16 @@ int sim_sums(Sim *sim, Sums *out, Err *err)
 int sim_send(Sim *sim, Parts *p, Err *err)
 {
   Limits l;
-  if (limits_of(sim, &l, err) || part_add(p, stored, err) || sim->b->store(sim, p, err)) return -1;
+  if (limits_of(sim, &l, err) || part_add(p, stored, err) ||
+      (sim->par.gravity_every > 1 && part_add(p, "pull", err)) || sim->b->store(sim, p, err))
+    return -1;
   p->time = sim->time;
+  if (sim->par.gravity_every > 1 &&
+      (part_set_number(p, "run", "OuterStep", sim->outer, err) ||
+       part_set_number(p, "run", "OuterSteps", sim->outer_steps, err) ||
+       part_set_number(p, "run", "OuterTime", sim->outer_time, err) ||
+       part_set_number(p, "run", "OuterKick", sim->outer_kick, err)))
+    return -1;
   return part_set_number(p, "run", "SmoothingMin", sim->par.h_min, err) |
          part_set_number(p, "run", "SmoothingMax", sim->par.h_max, err) |
          part_set_number(p, "run", "NextStep", sim->dt, err) |

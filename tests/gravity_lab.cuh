@@ -125,7 +125,7 @@ static GravityLab *lab_new(Cloud c)
   if (tree_build(&l->host, c.n, c.x, c.m, c.h, &err)) lab_die(err.text);
   frexp(c.h[0], &e), l->cuda.unit.length = ldexp(1, e);
   frexp(c.m[0], &e), l->cuda.unit.mass = ldexp(1, e);
-  l->sim.own = &l->cuda;
+  l->sim.own = &l->cuda, l->sim.pull_due = 1;
   l->sim.s.n = c.n, l->sim.s.dimension = 3;
   l->sim.par.G = LAB_G, l->sim.par.gravity = PARAM_TREE, l->sim.par.theta = 0.7;
   Root root = {{l->host.origin[0], l->host.origin[1], l->host.origin[2]}, l->host.edge};
@@ -135,7 +135,7 @@ static GravityLab *lab_new(Cloud c)
   const size_t n = (size_t)c.n;
   s->x = lab_up(l, c.x, 3 * n), s->m = lab_up(l, c.m, n), s->h = lab_up(l, c.h, n);
   s->acc = lab_up(l, c.x, 3 * n), s->phi = lab_up(l, c.m, n);
-  l->cuda.pull = lab_up(l, c.x, 3 * n);
+  s->pull = lab_up(l, c.x, 3 * n);
   l->a = (double *)calloc(n, 24), l->phi = (double *)calloc(n, 8), l->acc = (double *)calloc(n, 24);
   if (cuda_gravity_open(&l->sim, &err)) lab_die(err.text);
   return l;
@@ -150,7 +150,7 @@ static void lab_run(GravityLab *l, double theta, int gravity, int precision)
   CHECK(cudaMemcpy(l->sim.s.acc, l->c.x, 24 * n, cudaMemcpyHostToDevice));
   if (cuda_gravity(&l->sim, &err)) lab_die(err.text);
   CHECK(cudaDeviceSynchronize());
-  lab_down(l, l->a, l->cuda.pull, 3 * n), lab_down(l, l->phi, l->sim.s.phi, n);
+  lab_down(l, l->a, l->sim.s.pull, 3 * n), lab_down(l, l->phi, l->sim.s.phi, n);
   lab_down(l, l->acc, l->sim.s.acc, 3 * n);
 }
 
@@ -159,7 +159,7 @@ static void lab_free(GravityLab *l)
   DeviceTree *t = &l->cuda.tree;
   State *s = &l->sim.s;
   void *all[] = {t->link,   t->lo,        t->hi,        t->com,       t->pole,
-                 t->moment, l->cuda.x.hi, l->cuda.x.lo, l->cuda.root, l->cuda.pull,
+                 t->moment, l->cuda.x.hi, l->cuda.x.lo, l->cuda.root, l->sim.s.pull,
                  s->x,      s->m,         s->h,         s->acc,       s->phi};
   cuda_gravity_close(&l->sim);
   for (void *p : all) cudaFree(p);

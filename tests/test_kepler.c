@@ -121,6 +121,27 @@ static void leapfrog(void **state)
   assert_true(d[2].apsis < 2e-4 && d[2].energy < 1e-6);
 }
 
+/* Gravity every fourth step, and at log lines (every tenth): still of second order in all, with the
+ * errors of a step four times as long at most. */
+static void every_fourth_step(void **state)
+{
+  Drift d[3];
+  (void)state;
+  for (int k = 0; k < 3; k++) {
+    double dt = 2 * LAB_PI / (2000 << k);
+    d[k] = orbit(.5, 10, "integrator=leapfrog", "gravity.every=4", dt, "gravity.method=direct");
+    assert_true(d[k].momentum < 1e-13 && d[k].angular < 1e-12);
+  }
+  for (int k = 0; k < 2; k++) {
+    double order = log(d[k].apsis / d[k + 1].apsis) / log(2);
+    print_message("order of the apsis %.3f\n", order);
+    assert_true(fabs(order - 2) < .05);
+  }
+  Drift coarse = orbit(.5, 10, "integrator=leapfrog", "step.error=1", 2 * LAB_PI / 500,
+                       "gravity.method=direct");
+  assert_true(d[0].apsis < 1.05 * coarse.apsis && d[0].energy < 1e-5);
+}
+
 /* The sums of a row are of one instant, the state's own, however long the steps; and asking for
  * them changes no bit of the orbit. */
 static void one_instant(void **state)
@@ -160,8 +181,9 @@ static void one_instant(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(runge_kutta), cmocka_unit_test(tolerance),
-                                     cmocka_unit_test(leapfrog), cmocka_unit_test(one_instant)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(runge_kutta), cmocka_unit_test(tolerance), cmocka_unit_test(leapfrog),
+      cmocka_unit_test(every_fourth_step), cmocka_unit_test(one_instant)};
   omp_set_num_threads(1);
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

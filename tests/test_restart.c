@@ -83,6 +83,7 @@ typedef struct {
 static const Case cases[] = {
     {"integrator=leapfrog", "density=continuity", "gravity.method=tree", "step.cfl=0.4"},
     {"integrator=leapfrog", "density=sum", "gravity.method=direct", "damping.rate=0.1"},
+    {"integrator=leapfrog", "density=continuity", "gravity.method=tree", "gravity.every=7"},
     {"integrator=leapfrog", "density=miscible", "gravity.method=tree", "precision=double"},
     {"integrator=leapfrog", "density=continuity", "gravity.method=none",
      "smoothing.mode=neighbours"},
@@ -171,6 +172,9 @@ static void refused(void **state)
   assert_non_null(strstr(err.text, "checkpoint"));
   assert_int_equal(sim_open(&sim, &par, p, "abacus", &err), -1);
   assert_non_null(strstr(err.text, "'abacus'"));
+  par = lab_param("gravity.every=2", "integrator=rk2-adaptive", NULL);
+  assert_int_equal(sim_open(&sim, &par, p, lab_device(), &err), -1);
+  assert_non_null(strstr(err.text, "gravity.every"));
   part_free(p);
 }
 

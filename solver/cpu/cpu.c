@@ -72,7 +72,7 @@ static void cpu_close(Sim *sim)
   if (!c) return;
   tree_free(&c->tree);
   ngb_free(&c->ngb);
-  free(c->order), free(c->record), free(c->pull), free(c->scratch), free(c->flaw);
+  free(c->order), free(c->record), free(c->scratch), free(c->flaw);
   free(c);
   sim->own = NULL;
   free_state(&sim->s);
@@ -92,12 +92,11 @@ static int cpu_open(Sim *sim, const Parts *p, Err *err)
   sim->s.material = sim->material;
   c->order = malloc((n + 1) * sizeof *c->order);
   c->record = malloc((n + 1) * 23 * sizeof(double));
-  c->pull = malloc((n + 1) * 3 * sizeof(double));
   c->share = (n + 1) * 9 * sizeof(double);
   c->scratch = malloc(c->share * (size_t)omp_get_max_threads());
   c->run.sigma = kernel_sigma(sim->par.kernel, p->dimension);
   c->run.alpha = sim->par.alpha, c->run.beta = sim->par.beta, c->run.dimension = p->dimension;
-  if (!c->order || !c->record || !c->pull || !c->scratch || alloc_state(&sim->s, sim->slots)) {
+  if (!c->order || !c->record || !c->scratch || alloc_state(&sim->s, sim->slots)) {
     cpu_close(sim);
     return err_set(err, "not enough memory for %ld particles", p->n);
   }
@@ -184,36 +183,42 @@ static int cpu_search(Sim *sim, Err *err)
 }
 
 /* Force and torque that the tree's errors leave over are taken off (recoil.h). */
-static void take_recoil(const Cpu *c, const State *s)
+static void take_recoil(const State *s)
 {
   RecoilForce force;
   RecoilTorque torque;
   memset(&force, 0, sizeof force), memset(&torque, 0, sizeof torque);
-  for (long i = 0; i < s->n; i++) recoil_add_force(&force, s->m[i], &s->x[3 * i], &c->pull[3 * i]);
+  for (long i = 0; i < s->n; i++) recoil_add_force(&force, s->m[i], &s->x[3 * i], &s->pull[3 * i]);
   Recoil off = recoil_mean(&force);
   for (long i = 0; i < s->n; i++)
-    recoil_add_torque(&torque, &off, s->m[i], &s->x[3 * i], &c->pull[3 * i]);
+    recoil_add_torque(&torque, &off, s->m[i], &s->x[3 * i], &s->pull[3 * i]);
   recoil_turn(&off, &torque);
-  for (long i = 0; i < s->n; i++) recoil_take(&off, &s->x[3 * i], &c->pull[3 * i]);
+  for (long i = 0; i < s->n; i++) recoil_take(&off, &s->x[3 * i], &s->pull[3 * i]);
 }
 
-static int cpu_gravity(Sim *sim, Err *err)
+/* pull and phi at x. */
+static int pull(Sim *sim, Err *err)
 {
   Cpu *c = sim->own;
   const State *s = &sim->s;
   GravityOptions o = {sim->par.theta, sim->par.G, sim->par.precision == PARAM_MIXED};
+  if (sim->par.gravity == PARAM_DIRECT)
+    return gravity_direct(s->n, s->x, s->m, s->h, o.G, s->pull, s->phi, err);
+  if (gravity_tree(&c->tree, s->x, s->m, s->h, &o, s->pull, s->phi, err)) return -1;
+  take_recoil(s);
+  return 0;
+}
+
+static int cpu_gravity(Sim *sim, Err *err)
+{
+  const State *s = &sim->s;
   int bad;
   if (sim->par.gravity == PARAM_NONE) return 0;
   backend_begin(sim, TIMER_GRAVITY);
-  if (sim->par.gravity == PARAM_TREE)
-    bad = gravity_tree(&c->tree, s->x, s->m, s->h, &o, c->pull, s->phi, err);
-  else
-    bad = gravity_direct(s->n, s->x, s->m, s->h, o.G, c->pull, s->phi, err);
-  if (!bad && sim->par.gravity == PARAM_TREE) take_recoil(c, s);
-  if (!bad)
-    for (long i = 0; i < 3 * s->n; i++) s->acc[i] += c->pull[i];
+  bad = sim->pull_due && pull(sim, err);
+  for (long i = 0; i < 3 * s->n && !bad; i++) s->acc[i] += s->pull[i];
   backend_end(sim, TIMER_GRAVITY);
-  return bad;
+  return bad ? -1 : 0;
 }
 
 /* The stamps of the per-particle passes. */

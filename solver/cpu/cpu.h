@@ -15,7 +15,6 @@ typedef struct {
   PairRun run;
   long *order;    /* [n] */
   double *record; /* [n][23] packed records of the loop at hand */
-  double *pull;   /* [n][3] gravity */
   void *scratch;  /* [threads][share] bytes, for reordering */
   size_t share;
   double *flaw; /* all thresholds */

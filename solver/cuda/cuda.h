@@ -84,7 +84,6 @@ typedef struct {
   struct CudaReduce *reduce;   /* private to reduce.cu */
   struct CudaStore *store;     /* private to store.cu */
   struct CudaClock *clock;     /* private to clock.cu */
-  double *pull;                /* [n][3] gravity [m/s^2], kept between evaluations */
   double *flaw;                /* all thresholds */
   Material *material;
   size_t bytes; /* allocated so far */

@@ -199,7 +199,7 @@ static Walk walk_of(const Sim *sim)
 {
   const Cuda *c = cuda_of(sim);
   const State *s = &sim->s;
-  Walk w = {c->tree, c->x,           c->root,      s->x,       s->m,     s->h,      c->pull,
+  Walk w = {c->tree, c->x,           c->root,      s->x,       s->m,     s->h,      s->pull,
             s->phi,  c->unit.length, c->unit.mass, sim->par.G, INFINITY, (int)s->n, chunk_of(s->n)};
   if (sim->par.theta > 0) w.over_theta = (float)(1 / sim->par.theta);
   return w;
@@ -224,13 +224,13 @@ int cuda_gravity(Sim *sim, Err *err)
 {
   Cuda *c = cuda_of(sim);
   CudaError *error = &c->error;
-  const int single = sim->par.precision == PARAM_MIXED, walks = sim->par.gravity == PARAM_TREE;
+  const int single = sim->par.precision == PARAM_MIXED, method = sim->par.gravity,
+            walks = sim->pull_due && method == PARAM_TREE;
   const Walk w = walk_of(sim);
   const unsigned blocks = launch_blocks((size_t)w.n, DIRECT_BLOCK);
-  if (sim->par.gravity == PARAM_NONE) return 0;
-  if (walks)
-    tree(sim, w, single);
-  else
+  if (method == PARAM_NONE) return 0;
+  if (walks) tree(sim, w, single);
+  if (sim->pull_due && method == PARAM_DIRECT)
     LAUNCH(single ? direct_sum<float> : direct_sum<double>, blocks, DIRECT_BLOCK, 0, c->stream, w);
   LAUNCH(add_pull, blocks, DIRECT_BLOCK, 0, c->stream, w, walks ? c->gravity->recoil : NULL,
          sim->s.acc, sim->s.dimension);

@@ -76,7 +76,7 @@ size_t cuda_state_bytes(Sim *sim, const Parts *p)
   columns_of(sim, column, &all);
   for (int k = 0; k < all; k++)
     if (!idle(column[k].name)) sum += rounded(n * (size_t)(column[k].width * column[k].size));
-  return sum + n * (4 * sizeof(float4) + 3 * sizeof(double)) + (size_t)p->flaws * sizeof(double);
+  return sum + n * 4 * sizeof(float4) + (size_t)p->flaws * sizeof(double);
 }
 
 static int alloc(Sim *sim, const Parts *p, Err *err)
@@ -93,7 +93,6 @@ static int alloc(Sim *sim, const Parts *p, Err *err)
          cuda_alloc(sim, (void **)&c->x.lo, n * sizeof(float4), err) ||
          cuda_alloc(sim, (void **)&c->y.hi, n * sizeof(float4), err) ||
          cuda_alloc(sim, (void **)&c->y.lo, n * sizeof(float4), err) ||
-         cuda_alloc(sim, (void **)&c->pull, n * 3 * sizeof(double), err) ||
          cuda_alloc(sim, (void **)&c->flaw, (size_t)p->flaws * sizeof(double), err) ||
          cuda_alloc(sim, (void **)&c->material, (size_t)sim->materials * sizeof(Material), err);
 }
@@ -174,5 +173,5 @@ void cuda_state_close(Sim *sim)
   columns_of(sim, column, &all);
   for (int k = 0; k < all; k++) cuda_free(*column[k].array);
   cuda_free(c->x.hi), cuda_free(c->x.lo), cuda_free(c->y.hi), cuda_free(c->y.lo);
-  cuda_free(c->pull), cuda_free(c->flaw), cuda_free(c->material);
+  cuda_free(c->flaw), cuda_free(c->material);
 }
