@@ -2,9 +2,9 @@
 /* The pair terms of SPH: what particles i and j exchange. Sums over j are the backend's, which also
  * holds the coordinates and takes their difference r = r_i - r_j as exactly as it can. Kernel,
  * dimension class (line: 1D), solid and miscible are literals of the pair loops. h = (h_i + h_j)/2,
- * grad_i W = sigma_D/h^(D+2) (w'(q)/q) r. Forces, and powers but for the miscible form, are
- * symmetric in i and j to the last bit. In single precision (real, hd.h) use units in which r^5 and
- * m^2 stay in range. */
+ * grad_i W = sigma_D/h^(D+2) (w'(q)/q) r. Forces change sign exactly when i and j change places,
+ * however the compiler contracts. In single precision (real, hd.h) use units in which r^5 and m^2
+ * stay in range. */
 #ifndef PAIR_H
 #define PAIR_H
 
@@ -73,12 +73,12 @@ HD PairGradient pair_gradient(PairVector r, PairVector v, real h, real volume, i
 /* Loop B: what it reads of a particle besides its place. p and S as damage leaves them (001 eq.
  * 20-21); C is the inverse moment matrix (passes_pack). A fluid has no d. */
 typedef struct {
-  real vx, vy, vz;                                  /* m/s */
-  real h, m, inverse_m;                             /* m, kg, 1/kg (miscible only) */
-  real rho, inverse_rho;                            /* kg/m^3, m^3/kg (solid only) */
-  real cs, signal;                                  /* m/s: bulk and longitudinal wave speed */
-  real p;                                           /* p/rho^2 [Pa m^6/kg^2] */
-  real dxx, dxy, dxz, dyx, dyy, dyz, dzx, dzy, dzz; /* S C/rho [Pa m^3/kg] */
+  real vx, vy, vz;       /* m/s */
+  real h, m;             /* m, kg */
+  real rho, inverse_rho; /* kg/m^3, m^3/kg (solid only) */
+  real cs, signal;       /* m/s: bulk and longitudinal wave speed */
+  real p;                /* p/rho^2 [Pa m^6/kg^2]; miscible: m^2 p/rho^2 [Pa m^6] */
+  real dxx, dxy, dxz, dyx, dyy, dyz, dzx, dzy, dzz; /* S C [Pa] */
 } PairBody;
 
 typedef struct {
@@ -97,13 +97,21 @@ HD real pair_signal(real waves, real vr, real r2, real viscous)
   return both > (real)3.2 * viscous ? both : (real)3.2 * viscous;
 }
 
-/* pair_shear: d r. */
-HD PairVector pair_shear(const PairBody *b, PairVector r)
+/* pair_shear: (d_i + d_j) r; sums first, so that i and j may change places. */
+HD PairVector pair_shear(const PairBody *i, const PairBody *j, PairVector r)
 {
-  PairVector o = {b->dxx * r.x + b->dxy * r.y + b->dxz * r.z,
-                  b->dyx * r.x + b->dyy * r.y + b->dyz * r.z,
-                  b->dzx * r.x + b->dzy * r.y + b->dzz * r.z};
+  PairVector o = {(i->dxx + j->dxx) * r.x + (i->dxy + j->dxy) * r.y + (i->dxz + j->dxz) * r.z,
+                  (i->dyx + j->dyx) * r.x + (i->dyy + j->dyy) * r.y + (i->dyz + j->dyz) * r.z,
+                  (i->dzx + j->dzx) * r.x + (i->dzy + j->dzy) * r.y + (i->dzz + j->dzz) * r.z};
   return o;
+}
+
+/* pair_shear_work: v d_i r. */
+HD real pair_shear_work(const PairBody *i, PairVector r, PairVector v)
+{
+  return v.x * (i->dxx * r.x + i->dxy * r.y + i->dxz * r.z) +
+         v.y * (i->dyx * r.x + i->dyy * r.y + i->dyz * r.z) +
+         v.z * (i->dzx * r.x + i->dzy * r.y + i->dzz * r.z);
 }
 
 /* pair_force: F = m_i m_j T . grad W, heating -1/2 v_ij . F, r = r_i - r_j,
@@ -120,17 +128,16 @@ HD PairForce pair_force(PairVector r, const PairBody *i, const PairBody *j, int 
   int inside;
   PairVector v = {i->vx - j->vx, i->vy - j->vy, i->vz - j->vz}, t;
   real r2 = pair_dot(r, r), vr = pair_dot(v, r), h = 0.5f * (i->h + j->h), own;
-  real f = i->m * j->m * pair_slope(kern, line, run, r2, h, &inside);
+  real f = pair_slope(kern, line, run, r2, h, &inside), mm = i->m * j->m;
   real nu = viscosity_nu(vr, r2, h), cs = 0.5f * (i->cs + j->cs);
-  real pi = viscosity_pi(nu, cs, 0.5f * (i->rho + j->rho), (real)run->alpha, (real)run->beta);
-  real own_p = (miscible ? i->m * j->inverse_m : 1) * i->p;
-  real p = own_p + (miscible ? j->m * i->inverse_m : 1) * j->p;
-  t.x = -p * r.x, t.y = -p * r.y, t.z = -p * r.z, own = -2 * own_p * vr;
+  real pi = mm * viscosity_pi(nu, cs, 0.5f * (i->rho + j->rho), (real)run->alpha, (real)run->beta);
+  real p = miscible ? i->p + j->p : mm * (i->p + j->p);
+  t.x = -p * r.x, t.y = -p * r.y, t.z = -p * r.z, own = -2 * i->p * vr;
   if (solid) {
-    PairVector di = pair_shear(i, r), dj = pair_shear(j, r);
-    real wi = j->inverse_rho, wj = i->inverse_rho;
-    t.x += wi * di.x + wj * dj.x, t.y += wi * di.y + wj * dj.y, t.z += wi * di.z + wj * dj.z;
-    own += 2 * wi * pair_dot(v, di);
+    PairVector d = pair_shear(i, j, r);
+    real w = mm * (i->inverse_rho * j->inverse_rho);
+    t.x += w * d.x, t.y += w * d.y, t.z += w * d.z;
+    if (miscible) own += 2 * w * pair_shear_work(i, r, v);
   }
   if (!miscible) own = pair_dot(v, t);
   o.fx = f * (t.x - pi * r.x), o.fy = f * (t.y - pi * r.y), o.fz = f * (t.z - pi * r.z);

@@ -178,29 +178,30 @@ HD void passes_damage(const State *s, long i, double dt)
   s->damage[i] = damage_grow(s->damage[i], active, s->nact[i], s->nflaw[i], cg, s->h[i], dt);
 }
 
-/* passes_pack: p and S C/rho as the force loop takes them. C, the inverse moment matrix of loop A,
+/* passes_pack: p and S C as the force loop takes them. C, the inverse moment matrix of loop A,
  * is turned by the spin over dt, from loop A's positions to those of the force loop. As C also
  * corrects the gradient that drives S, the two are adjoint; and as sum V_j r W' C = 1, the stress
  * exerts no torque on a neighbourhood (Bonet & Lok 1999, CMAME 180, 97). */
-HD void passes_pack(const State *s, long i, int solid, double dt)
+HD void passes_pack(const State *s, const Step *k, long i, int solid, double dt)
 {
   double left = 1 - s->damage[i], p = s->p[i], *t = &s->t[9 * i];
-  s->push[i] = (p < 0 ? left * p : p) / (s->rho[i] * s->rho[i]);
+  double size = k->density == 2 ? s->m[i] / s->rho[i] : 1 / s->rho[i]; /* 2: miscible */
+  s->push[i] = (p < 0 ? left * p : p) * size * size;
   for (int d = 0; d < 9 && !solid; d++) t[d] = 0;
   if (solid) {
     Sym c = passes_rotate(passes_stress(&s->cm[6 * i]), &s->g[9 * i], dt);
-    tensor_product(tensor_scale(passes_stress(&s->s[6 * i]), left / s->rho[i]), c, t);
+    tensor_product(tensor_scale(passes_stress(&s->s[6 * i]), left), c, t);
   }
 }
 
 /* passes_body: the record of i for the force loop. */
 HD PairBody passes_body(const State *s, long i)
 {
-  const double *v = &s->vp[3 * i], *t = &s->t[9 * i], m = s->m[i], rho = s->rho[i];
-  PairBody b = {(real)v[0],       (real)v[1], (real)v[2],      (real)s->h[i],  (real)m,
-                (real)(1 / m),    (real)rho,  (real)(1 / rho), (real)s->cs[i], (real)s->cl[i],
-                (real)s->push[i], (real)t[0], (real)t[1],      (real)t[2],     (real)t[3],
-                (real)t[4],       (real)t[5], (real)t[6],      (real)t[7],     (real)t[8]};
+  const double *v = &s->vp[3 * i], *t = &s->t[9 * i], rho = s->rho[i];
+  PairBody b = {(real)v[0], (real)v[1],      (real)v[2],     (real)s->h[i],  (real)s->m[i],
+                (real)rho,  (real)(1 / rho), (real)s->cs[i], (real)s->cl[i], (real)s->push[i],
+                (real)t[0], (real)t[1],      (real)t[2],     (real)t[3],     (real)t[4],
+                (real)t[5], (real)t[6],      (real)t[7],     (real)t[8]};
   return b;
 }
 
@@ -291,7 +292,7 @@ HD void pass_advance(const State *s, const Step *k, long i)
   }
   if (mu > 0) passes_yield(s, i, 1);
   if (k->damage) passes_damage(s, i, k->dt);
-  passes_pack(s, i, mu > 0, 0.5 * k->dt);
+  passes_pack(s, k, i, mu > 0, 0.5 * k->dt);
 }
 
 /* passes_damp: -(v - v_frame)/tau, radial part only or all of it, in the co-rotating frame of the
@@ -350,7 +351,7 @@ HD void pass_local(const State *s, const Step *k, long i)
   if (mu > 0) passes_yield(s, i, 0);
   if (k->damage) passes_damage(s, i, 0);
   passes_keep_stress(&s->ds[6 * i], passes_jaumann(passes_stress(&s->s[6 * i]), &s->g[9 * i], mu));
-  passes_pack(s, i, mu > 0, 0);
+  passes_pack(s, k, i, mu > 0, 0);
 }
 
 /* passes_heating: du/dt as the run's energy mode has it: all work, compression alone (frozen

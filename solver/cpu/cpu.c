@@ -91,7 +91,7 @@ static int cpu_open(Sim *sim, const Parts *p, Err *err)
   sim->s.dimension = p->dimension;
   sim->s.material = sim->material;
   c->order = malloc((n + 1) * sizeof *c->order);
-  c->record = malloc((n + 1) * 23 * sizeof(double));
+  c->record = malloc((n + 1) * 22 * sizeof(double));
   c->share = (n + 1) * 9 * sizeof(double);
   c->scratch = malloc(c->share * (size_t)omp_get_max_threads());
   c->run.sigma = kernel_sigma(sim->par.kernel, p->dimension);

@@ -14,7 +14,7 @@ typedef struct {
   Ngb ngb;
   PairRun run;
   long *order;    /* [n] */
-  double *record; /* [n][23] packed records of the loop at hand */
+  double *record; /* [n][22] packed records of the loop at hand */
   void *scratch;  /* [threads][share] bytes, for reordering */
   size_t share;
   double *flaw; /* all thresholds */

@@ -127,7 +127,7 @@ static inline __attribute__((always_inline)) void force_of(const State *s, long 
   for (long k = 0; k < n; k++) {
     PairVector r = {self.x - AT(0), self.y - AT(1), self.z - AT(2)};
     PairBody j = {AT(3),  AT(4),  AT(5),  AT(6),  AT(7),  AT(8),  AT(9),  AT(10), AT(11), AT(12),
-                  AT(13), AT(14), AT(15), AT(16), AT(17), AT(18), AT(19), AT(20), AT(21), AT(22)};
+                  AT(13), AT(14), AT(15), AT(16), AT(17), AT(18), AT(19), AT(20), AT(21)};
     PairForce o = pair_force(r, &self.b, &j, kern, line, solid, miscible, run);
     fx += o.fx, fy += o.fy, fz += o.fz, work += o.work, near += o.near;
     signal = o.signal > signal ? o.signal : signal;

@@ -29,8 +29,8 @@ typedef struct {
   PairRun run;
   const Root *root;
   Units unit;
-  double rho; /* unit of density [kg/m^D] */
-  int kern;   /* for the general instances */
+  double rho, push; /* unit of density [kg/m^D]; code units a unit of State.push */
+  int kern;         /* for the general instances */
 } Loop;
 
 static __device__ long self_of(void) { return (long)blockIdx.x * blockDim.x + threadIdx.x; }
@@ -58,13 +58,13 @@ template <int solid> static __global__ void pack_body(Loop a)
 {
   long i = self_of();
   const State &s = a.s;
-  const double il = 1 / a.unit.length, iv = 1 / a.unit.speed, it = iv * iv;
+  const double il = 1 / a.unit.length, iv = 1 / a.unit.speed, it = iv * iv / a.rho;
   const double *x = &s.x[3 * i], *v = &s.vp[3 * i], *t = &s.t[9 * i];
   if (i >= s.n) return;
   place_set(a.r.x, i, (x[0] - a.root->origin[0]) * il, (x[1] - a.root->origin[1]) * il,
             (x[2] - a.root->origin[2]) * il, (real)(s.h[i] * il), (real)(s.m[i] / a.unit.mass));
   a.r.q[0][i] = quad(v[0] * iv, v[1] * iv, v[2] * iv, s.rho[i] / a.rho);
-  a.r.q[1][i] = quad(s.cs[i] * iv, s.cl[i] * iv, s.push[i] * a.rho * it, t[0] * it);
+  a.r.q[1][i] = quad(s.cs[i] * iv, s.cl[i] * iv, s.push[i] * a.push, t[0] * it);
   if (!solid) return;
   a.r.q[2][i] = quad(t[1] * it, t[2] * it, t[3] * it, t[4] * it);
   a.r.q[3][i] = quad(t[5] * it, t[6] * it, t[7] * it, t[8] * it);
@@ -102,15 +102,14 @@ template <int kern, int line, int solid> static __global__ void gradient_loop(Lo
 }
 
 /* The record of particle i for loop B; *at and the mass come with its place. */
-template <int solid, int miscible>
-static __device__ PairBody body_get(const Records &r, long i, Place *at)
+template <int solid> static __device__ PairBody body_get(const Records &r, long i, Place *at)
 {
   PairBody b;
   *at = place_get(r.x, i, &b.h, &b.m);
   const Quad p = quad_get(r.q[0] + i), q = quad_get(r.q[1] + i);
   b.vx = p.x, b.vy = p.y, b.vz = p.z, b.rho = p.w;
   b.cs = q.x, b.signal = q.y, b.p = q.z, b.dxx = q.w;
-  b.inverse_m = miscible ? 1 / b.m : 0, b.inverse_rho = solid ? 1 / b.rho : 0;
+  b.inverse_rho = solid ? 1 / b.rho : 0;
   if (solid) {
     const Quad u = quad_get(r.q[2] + i), w = quad_get(r.q[3] + i);
     b.dxy = u.x, b.dxz = u.y, b.dyx = u.z, b.dyy = u.w;
@@ -130,11 +129,11 @@ template <int kern, int line, int solid, int miscible> static __global__ void fo
   if (i >= s.n) return;
   const int kernel = line ? a.kern : kern, n = a.count[i];
   Place xi, xj;
-  const PairBody self = body_get<solid, miscible>(a.r, i, &xi);
+  const PairBody self = body_get<solid>(a.r, i, &xi);
   double fx = 0, fy = 0, fz = 0, work = 0;
   real signal = 2 * self.signal, near = 0;
   for (int k = 0; k < n; k++) {
-    const PairBody other = body_get<solid, miscible>(a.r, neighbour(a, i, k), &xj);
+    const PairBody other = body_get<solid>(a.r, neighbour(a, i, k), &xj);
     const PairForce o =
         pair_force(place_between(xi, xj), &self, &other, kernel, line, solid, miscible, &a.run);
     fx += o.fx, fy += o.fy, fz += o.fz, work += o.work, near += o.near;
@@ -210,6 +209,8 @@ static Loop loop_of(const Sim *sim)
   a.s = sim->s, a.r = c->loops->r, a.run = c->run, a.root = c->root, a.unit = c->unit;
   a.start = c->lists.start, a.count = c->lists.count, a.list = c->lists.list;
   a.rho = c->unit.mass / volume;
+  a.push = (sim->miscible ? 1 / (volume * volume) : a.rho * a.rho) /
+           (a.rho * c->unit.speed * c->unit.speed);
   a.kern = sim->par.kernel;
   return a;
 }
