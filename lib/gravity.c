@@ -67,7 +67,7 @@ static int walk_tree(Walk *w, const Tree *t, const TreeGroup *g, double theta)
   w->nodes = w->ranges = w->particles = 0;
   for (int32_t k = 0; k < t->nodes;) {
     const TreeWalk *p = t->walk + k;
-    const float far = p->size * itheta, soft = 0.5f * (h + p->hmax);
+    const float far = p->open * itheta, soft = 0.5f * (h + p->hmax);
     if (more_room(w)) return -1;
     if (p->count > 1 && tree_gap2(lo, hi, p->com, p->com) > far * far &&
         tree_gap2(lo, hi, p->lo, p->hi) > soft * soft * 1.00001f) {

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Self-gravity on the host: Barnes-Hut with quadrupoles, or direct sums. Groups of particles walk
- * the tree together: a node is accepted when size/d < theta, d the smallest distance from the
- * group's box to the node's centre of mass, and only when the boxes are further apart than the
+ * the tree together: a node is accepted when size/d < theta/(1 + (M_node/M)^(1/3)), d the
+ * smallest distance from the group's box to the node's centre of mass (the factor, because the few
+ * heaviest nodes make most of the error), and only when the boxes are further apart than the
  * largest softening (h_group + h_node)/2; so never when they overlap. What is not accepted is
  * summed particle by particle.
  *

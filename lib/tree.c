@@ -260,10 +260,11 @@ static void set_walk(const Tree *t, int32_t k)
 {
   const TreeNode *p = t->node + k;
   TreeWalk *w = t->walk + k;
-  const double scale = 1 / t->edge, up = (1 + 1e-7) * scale;
+  const double scale = 1 / t->edge, up = (1 + 1e-7) * scale, whole = t->node[0].mass;
   tree_outward(t, p->lo, p->hi, w->lo, w->hi);
   for (int d = 0; d < 3; d++) w->com[d] = (float)((p->com[d] - t->origin[d]) * scale);
-  w->size = (float)(p->size * up), w->hmax = (float)(p->hmax * up);
+  w->open = (float)(p->size * up * (1 + (whole > 0 ? cbrt(p->mass / whole) : 0)));
+  w->hmax = (float)(p->hmax * up);
   w->first = p->first, w->count = p->count, w->skip = p->skip;
 }
 

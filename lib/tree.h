@@ -28,10 +28,10 @@ typedef struct {
   int16_t level;        /* the cell is edge/2^level wide; levels without branching are left out */
 } TreeNode;
 
-/* What a walk reads of a node, in few bytes: lengths in root edges from the origin; boxes, size and
+/* What a walk reads of a node, in few bytes: lengths in root edges from the origin; boxes, open and
  * hmax are rounded outwards, so that a walk misses nothing. Node k is a leaf when skip == k + 1. */
 typedef struct {
-  float lo[3], hi[3], com[3], size, hmax;
+  float lo[3], hi[3], com[3], open, hmax; /* open: size (1 + (mass/all mass)^(1/3)) */
   int32_t first, count, skip;
 } TreeWalk;
 

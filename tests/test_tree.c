@@ -94,7 +94,7 @@ static void check_walk(const Tree *t, int32_t k)
   const TreeWalk *w = t->walk + k;
   assert_true(w->first == p->first && w->count == p->count && w->skip == p->skip);
   assert_true((w->skip == k + 1) == p->leaf);
-  assert_true((double)w->hmax * t->edge >= p->hmax && (double)w->size * t->edge >= p->size);
+  assert_true((double)w->hmax * t->edge >= p->hmax && (double)w->open * t->edge >= p->size);
   for (int d = 0; d < 3; d++) {
     assert_true((double)w->lo[d] * t->edge <= (p->lo[d] - t->origin[d]) * (1 + 1e-15));
     assert_true((double)w->hi[d] * t->edge >= (p->hi[d] - t->origin[d]) * (1 - 1e-15));
