@@ -84,30 +84,16 @@ static void closed_angle_is_direct(void **state)
       }
 }
 
-/* At theta 0.7: spheres in contact, a sphere in debris, clouds; and no worse than the host's tree,
- * whose groups are larger. */
+/* At theta 0.7: spheres in contact, a sphere in debris, clouds. */
 static void errors_of_the_tree(void **state)
 {
   (void)state;
   for (int k = 0; k < 5; k++) {
-    GravityLab *l = lab_new(k < 2 ? lab_spheres(3000, k)
-                                  : shape(k == 2   ? SPHERE
-                                          : k == 3 ? TWO_BODIES
-                                                   : CLUSTERS,
-                                          3000, 5, 2));
-    const size_t n = (size_t)l->c.n;
-    std::vector<double> a(3 * n), phi(n);
-    const GravityOptions o = {0.7, LAB_G, 1};
-    Err err;
+    const int of[] = {0, 0, SPHERE, TWO_BODIES, CLUSTERS};
+    GravityLab *l = lab_new(k < 2 ? lab_spheres(3000, k) : shape(of[k], 3000, 5, 2));
     const Errors e = against_direct(l, 0.7, PARAM_TREE, PARAM_MIXED);
-    if (!(e.median < 1e-3 && e.p99 < 1e-2 && e.phi < 2e-3))
+    if (!(e.median < 8e-4 && e.p99 < 8e-3 && e.phi < 2e-3))
       fail_msg("cloud %d: median %g, 99 %% %g, phi %g", k, e.median, e.p99, e.phi);
-    if (gravity_direct(l->c.n, l->c.x, l->c.m, l->c.h, LAB_G, a.data(), phi.data(), &err) ||
-        gravity_tree(&l->host, l->c.x, l->c.m, l->c.h, &o, l->a, l->phi, &err))
-      fail_msg("%s", err.text);
-    const Errors host = compare(&l->c, l->a, a.data(), l->phi, phi.data());
-    if (!(e.median < 1.1 * host.median))
-      fail_msg("cloud %d: %g, host %g", k, e.median, host.median);
     lab_free(l);
   }
 }
@@ -161,8 +147,8 @@ static void single_precision_of_any_size(void **state)
     }
 }
 
-/* Direct sums: pairs cancel to the rounding of a double, in single precision as well. The tree:
- * what is left over is taken off. The pull is added to acc. */
+/* Direct sums: pairs cancel to the rounding of a double, in single precision as well. The tree: what
+ * force and torque are left over is taken off. The pull is added to acc. */
 static void momentum_is_conserved(void **state)
 {
   (void)state;
@@ -170,14 +156,21 @@ static void momentum_is_conserved(void **state)
     for (int precision : PRECISIONS)
       for (int gravity : {PARAM_DIRECT, PARAM_TREE}) {
         GravityLab *l = lab_new(shape(k, 300, 2, 5));
-        double p[3] = {0, 0, 0}, size = 0;
+        double p[3] = {0, 0, 0}, t[3] = {0, 0, 0}, size = 0, arm = 0;
         lab_run(l, 0.7, gravity, precision);
-        for (long i = 0; i < 3 * l->c.n; i++) {
-          p[i % 3] += l->c.m[i / 3] * l->a[i], size += l->c.m[i / 3] * fabs(l->a[i]);
-          assert_true(l->acc[i] == l->c.x[i] + l->a[i]);
+        for (long i = 0; i < l->c.n; i++) {
+          const double *x = l->c.x + 3 * i, *a = l->a + 3 * i, m = l->c.m[i];
+          for (int d = 0; d < 3; d++) {
+            const int e = (d + 1) % 3, f = (d + 2) % 3;
+            p[d] += m * a[d], t[d] += m * (x[e] * a[f] - x[f] * a[e]);
+            assert_true(l->acc[3 * i + d] == x[d] + a[d]);
+          }
+          size += m * size3(a), arm += m * size3(x) * size3(a);
         }
         if (!(size3(p) <= 3e-14 * size))
-          fail_msg("shape %d, precision %d, method %d: %g", k, precision, gravity, size3(p) / size);
+          fail_msg("shape %d, %d, %d: %g", k, precision, gravity, size3(p) / size);
+        if (gravity == PARAM_TREE && k != LINE && k != COINCIDENT && !(size3(t) <= 3e-14 * arm))
+          fail_msg("shape %d, %d: torque %g", k, precision, size3(t) / arm);
         lab_free(l);
       }
 }
@@ -244,7 +237,8 @@ static void pieces_are_compact(void **state)
       pieces++, sphere += l->c.id[from] < n / 2 || !debris;
       wide += longest > 4 * l->c.h[0] && (l->c.id[from] < n / 2 || !debris);
     }
-    if (!(wide < 0.05 * (double)sphere && pieces < (debris ? 2.5 : 1.25) * (double)n / 32))
+    if (!(wide <= (debris ? 0.025 : 0) * (double)sphere &&
+          pieces < (debris ? 2.5 : 1.25) * (double)n / 32))
       fail_msg("debris %d: %ld of %ld wide, %ld pieces of %ld", debris, wide, sphere, pieces, n);
     lab_free(l);
   }
