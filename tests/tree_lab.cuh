@@ -16,11 +16,10 @@ extern "C" {
 #include "solver/sim.h"
 }
 
-extern "C" const struct backend backend_cuda;
-
 typedef struct {
   long n;
   Sim sim;
+  Cuda cuda;
   Parts *parts;
 } TreeLab;
 
@@ -45,43 +44,56 @@ template <class T> static void tree_lab_put(TreeLab *l, T *to, const T *from, si
   if (cuda_copy(&l->sim, to, from, n * sizeof(T), &err)) tree_lab_die(&err);
 }
 
-/* A backend that holds the cloud's particles, x, y, m, h (ha is h too), in the order of `row`. */
+/* The cloud's particles: x, y, m, h (ha is h too), in the order of `row`, and what order, tree and
+ * lists need. */
 static inline TreeLab *tree_lab_open(const Cloud *c, const long *row)
 {
   TreeLab *l = new TreeLab();
+  Sim *sim = &l->sim;
+  CudaError *error = &l->cuda.error;
   Err err;
+  const size_t n = (size_t)c->n;
   Parts *p = part_new(c->n);
   if (!p || part_add(p, "id x v m rho u h mat body", &err) ||
       part_add_material(p, "gas", "name = \"gas\"; eos = { form = \"ideal\"; gamma = 1.4; };",
                         &err))
     tree_lab_die(&err);
-  std::vector<double> y(3 * (size_t)c->n);
-  for (long k = 0; k < c->n; k++) {
-    const long i = row ? row[k] : k;
+  std::vector<double> y(3 * n);
+  for (size_t k = 0; k < n; k++) {
+    const size_t i = row ? (size_t)row[k] : k;
     p->id[k] = c->id[i], p->m[k] = c->m[i], p->h[k] = c->h[i], p->rho[k] = p->u[k] = 1;
-    memcpy(p->x + 3 * k, c->x + 3 * i, 24), memcpy(&y[3 * (size_t)k], c->y + 3 * i, 24);
+    memcpy(p->x + 3 * k, c->x + 3 * i, 24), memcpy(&y[3 * k], c->y + 3 * i, 24);
   }
   p->dimension = 3;
-  l->n = c->n, l->parts = p, l->sim.b = &backend_cuda;
-  param_defaults(&l->sim.par);
-  l->sim.materials = p->materials, l->sim.slots = 1;
-  if (!(l->sim.material = material_load(p, &err)) || backend_cuda.open(&l->sim, p, &err))
+  l->n = c->n, l->parts = p;
+  param_defaults(&sim->par);
+  sim->materials = p->materials, sim->slots = 1, sim->own = &l->cuda;
+  sim->s.n = c->n, sim->s.dimension = 3;
+  CHECK(cudaStreamCreateWithFlags(&l->cuda.stream, cudaStreamNonBlocking));
+  if (launch_failed(error, &err) || !(sim->material = material_load(p, &err)) ||
+      cuda_state_open(sim, p, &err) || cuda_order_open(sim, &err) || cuda_tree_open(sim, &err) ||
+      cuda_lists_open(sim, &err))
     tree_lab_die(&err);
-  Step step = {};
-  backend_cuda.pass(&l->sim, PASS_STILL, &step);
-  tree_lab_put(l, l->sim.s.y, y.data(), y.size());
+  tree_lab_put(l, sim->s.y, y.data(), 3 * n), tree_lab_put(l, sim->s.ha, p->h, n);
   return l;
+}
+
+static inline int tree_lab_try(TreeLab *l, Err *err)
+{
+  return cuda_order(&l->sim, err) || cuda_tree(&l->sim, err) || cuda_lists(&l->sim, err) ? -1 : 0;
 }
 
 static inline void tree_lab_search(TreeLab *l)
 {
   Err err;
-  if (backend_cuda.search(&l->sim, &err)) tree_lab_die(&err);
+  if (tree_lab_try(l, &err)) tree_lab_die(&err);
 }
 
 static inline void tree_lab_close(TreeLab *l)
 {
-  backend_cuda.close(&l->sim);
+  cuda_lists_close(&l->sim), cuda_tree_close(&l->sim), cuda_order_close(&l->sim);
+  cuda_state_close(&l->sim);
+  cudaStreamDestroy(l->cuda.stream);
   part_free(l->parts);
   free(l->sim.material);
   delete l;

@@ -152,7 +152,7 @@ template <class T, int WORDS, int BATCH>
 static __device__ __forceinline__ void gather(const Moves &m, int c, const uint32_t *at, long base,
                                               int count)
 {
-  T v[BATCH][WORDS];
+  T v[BATCH][WORDS] = {};
 #pragma unroll
   for (int b = 0; b < BATCH; b++)
 #pragma unroll
@@ -212,10 +212,12 @@ static __global__ void make_points(const __grid_constant__ State s, const Root *
   if (i >= s.n) return;
 #pragma unroll
   for (int d = 0; d < 3; d++) v[d] = (s.x[3 * i + d] - root->origin[d]) * il;
-  const float4 hi = make_float4((float)v[0], (float)v[1], (float)v[2], (float)(s.h[i] * il));
-  p.hi[i] = hi;
-  p.lo[i] = make_float4((float)(v[0] - (double)hi.x), (float)(v[1] - (double)hi.y),
-                        (float)(v[2] - (double)hi.z), (float)(s.m[i] / unit.mass));
+  float hi[3], lo[3];
+#pragma unroll
+  for (int d = 0; d < 3; d++)
+    hi[d] = __double2float_rn(v[d]), lo[d] = __double2float_rn(v[d] - (double)hi[d]);
+  p.hi[i] = make_float4(hi[0], hi[1], hi[2], __double2float_rn(s.h[i] * il));
+  p.lo[i] = make_float4(lo[0], lo[1], lo[2], __double2float_rn(s.m[i] / unit.mass));
 }
 
 /* Columns by size, in place: four 8-byte columns in a row move faster. */

@@ -43,6 +43,15 @@ struct CudaSearch {
   long rows; /* taken by the last search */
 };
 
+/* Where a piece of the warp's particles lies. */
+typedef struct {
+  int centre[3];         /* place */
+  float half[3];         /* of the box around it, code units */
+  float lo[3], hi[3];    /* the box from the root's origin, rounded outwards */
+  float drift[3], reach; /* mean y - x; the largest s */
+  float cell;            /* code units a unit of place */
+} Box;
+
 /* A warp's memory. */
 typedef struct {
   int2 stack[STACK]; /* x: first child, y: children; a leaf: x: node, y: 0. The next on top */
@@ -51,15 +60,11 @@ typedef struct {
   float rest[RING];  /* s^2 - x^2 */
   uint32_t j[(TILES + 1) * 32];
   uint32_t hit[TILES * 32]; /* of each tile and target, a bit a candidate */
+  Box box;
 } Desk;
 
-/* A piece of the warp's particles, and what it has collected. */
+/* The piece's targets, and what the walk has collected for them. */
 typedef struct {
-  int centre[3];         /* place */
-  float half[3];         /* of the box around it, code units */
-  float lo[3], hi[3];    /* the box from the root's origin, rounded outwards */
-  float drift[3], reach; /* mean y - x; the largest s */
-  float cell;            /* code units a unit of place */
   float x[4], y[4], z[4], s[4],
       least[4]; /* targets lane % 8 + 8 k; least: what the sum must pass */
   int stacked, leaves, filled, tiles;
@@ -102,7 +107,7 @@ static __device__ __forceinline__ float size3(float x, float y, float z)
 }
 
 /* Tests tile number p->tiles of the ring against the targets. */
-static __device__ void test_tile(Desk *w, Piece *p, uint32_t first)
+static __device__ __forceinline__ void test_tile(Desk *w, Piece *p, uint32_t first)
 {
   const int lane = lane_of(), q = lane / 8, tile = p->tiles;
   const int at = slot_of((tile & 1) * 32 + 8 * q);
@@ -184,7 +189,7 @@ typedef struct {
   bool again;
 } Result;
 
-static __device__ void finish_tile(const Search &a, Desk *w, Piece *p, Result *r)
+static __device__ __forceinline__ void finish_tile(const Search &a, Desk *w, Piece *p, Result *r)
 {
   test_tile(w, p, r->first);
   if (p->loose) verify_tile(a, w, p, r->first);
@@ -200,18 +205,19 @@ static __device__ void finish_tile(const Search &a, Desk *w, Piece *p, Result *r
 }
 
 /* Appends one candidate of each thread that has one within reach of the piece's box. */
-static __device__ void filter(const Search &a, Desk *w, Piece *p, Result *r, bool have, uint32_t j,
-                              float extra)
+static __device__ __forceinline__ void filter(const Search &a, Desk *w, Piece *p, bool have,
+                                              uint32_t j, float extra)
 {
+  const Box &b = w->box;
   float x = 0, y = 0, z = 0, s = 0;
   bool near = have;
   if (have) {
     const int4 v = __ldg(a.place + j);
-    x = (float)(v.x - p->centre[0]) * p->cell, y = (float)(v.y - p->centre[1]) * p->cell;
-    z = (float)(v.z - p->centre[2]) * p->cell, s = __int_as_float(v.w) + extra;
-    const float gap = sq(fmaxf(fabsf(x) - p->half[0], 0)) + sq(fmaxf(fabsf(y) - p->half[1], 0)) +
-                      sq(fmaxf(fabsf(z) - p->half[2], 0));
-    near = gap <= sq(p->reach + s) * (1 + EPS);
+    x = (float)(v.x - b.centre[0]) * b.cell, y = (float)(v.y - b.centre[1]) * b.cell;
+    z = (float)(v.z - b.centre[2]) * b.cell, s = __int_as_float(v.w) + extra;
+    const float gap = sq(fmaxf(fabsf(x) - b.half[0], 0)) + sq(fmaxf(fabsf(y) - b.half[1], 0)) +
+                      sq(fmaxf(fabsf(z) - b.half[2], 0));
+    near = gap <= sq(b.reach + s) * (1 + EPS);
   }
   const unsigned found = __ballot_sync(ALL, near);
   if (near) {
@@ -222,13 +228,26 @@ static __device__ void filter(const Search &a, Desk *w, Piece *p, Result *r, boo
   }
   p->filled += __popc(found);
   __syncwarp();
-  if (p->filled >= 32) finish_tile(a, w, p, r);
 }
 
-/* Looks at the particles of the first `leaves` leaves, 32 at a time. */
-static __device__ void open_leaves(const Search &a, Desk *w, Piece *p, Result *r, int leaves)
+/* Nobody, to the end of the tile. */
+static __device__ __forceinline__ void pad_tile(Desk *w, Piece *p)
 {
-  const int lane = lane_of();
+  const int lane = lane_of(), at = slot_of((p->tiles & 1) * 32 + lane);
+  if (lane >= p->filled) {
+    w->ring[at] = make_float4(0, 0, 0, 0), w->rest[at] = NEVER;
+    w->j[32 * p->tiles + lane] = ~0u;
+  }
+  p->filled = 32;
+  __syncwarp();
+}
+
+/* Looks at the particles of the next 32 leaves or fewer, 32 at a time; the last leaves of a piece
+ * also end its last tile. */
+static __device__ __forceinline__ void open_leaves(const Search &a, Desk *w, Piece *p, Result *r,
+                                                   bool last)
+{
+  const int lane = lane_of(), leaves = min(p->leaves, 32);
   int first = 0, count = 0, end;
   float extra = 0;
   bool loose = false;
@@ -237,10 +256,12 @@ static __device__ void open_leaves(const Search &a, Desk *w, Piece *p, Result *r
     const int4 link = __ldg(a.link + node);
     const float4 d = __ldg(a.drift + node);
     first = link.z, count = link.w;
-    extra = size3(d.x - p->drift[0], d.y - p->drift[1], d.z - p->drift[2]) * (1 + EPS);
+    extra = size3(d.x - w->box.drift[0], d.y - w->box.drift[1], d.z - w->box.drift[2]) * (1 + EPS);
     loose = extra + d.w > LOOSE * __ldg(&a.hi[node].w);
   }
+  const int rest = w->leaf[32 + lane];
   p->loose |= __any_sync(ALL, loose) != 0;
+  w->leaf[lane] = rest, p->leaves -= leaves;
   end = count;
 #pragma unroll
   for (int k = 1; k < 32; k *= 2) {
@@ -249,114 +270,112 @@ static __device__ void open_leaves(const Search &a, Desk *w, Piece *p, Result *r
   }
   const int all = __shfl_sync(ALL, end, 31);
   first -= end - count;
-  for (int base = 0; base < all; base += 32) {
+  int base = 0;
+  do {
     const int at = base + lane;
     int own = 0; /* the leaf that holds it: the first that ends after it */
 #pragma unroll
     for (int k = 16; k; k /= 2)
       if (__shfl_sync(ALL, end, own + k - 1) <= at) own += k;
     const uint32_t j = (uint32_t)(__shfl_sync(ALL, first, own) + at);
-    filter(a, w, p, r, at < all, j, __shfl_sync(ALL, extra, own));
-  }
+    filter(a, w, p, at < all, j, __shfl_sync(ALL, extra, own));
+    base += 32;
+    while (p->filled >= 32 || (last && base >= all && p->filled > 0)) {
+      if (p->filled < 32) pad_tile(w, p);
+      finish_tile(a, w, p, r);
+    }
+  } while (base < all);
 }
 
-/* Leaves that the threads of mask have, in their order. */
-static __device__ void add_leaves(const Search &a, Desk *w, Piece *p, Result *r, unsigned mask,
-                                  int node)
+/* Queues the leaves that the threads of mask have, in their order. */
+static __device__ __forceinline__ void add_leaves(Desk *w, Piece *p, unsigned mask, int node)
 {
   if (mask >> lane_of() & 1) w->leaf[p->leaves + rank_in(mask)] = node;
   p->leaves += __popc(mask);
-  __syncwarp();
-  if (p->leaves < 32) return;
-  open_leaves(a, w, p, r, 32);
-  p->leaves -= 32;
-  const int rest = w->leaf[32 + lane_of()];
-  __syncwarp();
-  w->leaf[lane_of()] = rest;
-  __syncwarp();
 }
 
 /* Whether node k may hold a neighbour of the piece. */
-static __device__ __forceinline__ bool reaches(const Search &a, const Piece *p, int k)
+static __device__ __forceinline__ bool reaches(const Search &a, const Box &b, int k)
 {
   const float4 lo = __ldg(a.lo + k), hi = __ldg(a.hi + k), d = __ldg(a.drift + k);
-  const float gx = fmaxf(fmaxf(lo.x - p->hi[0], p->lo[0] - hi.x), 0);
-  const float gy = fmaxf(fmaxf(lo.y - p->hi[1], p->lo[1] - hi.y), 0);
-  const float gz = fmaxf(fmaxf(lo.z - p->hi[2], p->lo[2] - hi.z), 0);
-  const float reach =
-      p->reach + d.w + size3(d.x - p->drift[0], d.y - p->drift[1], d.z - p->drift[2]);
+  const float gx = fmaxf(fmaxf(lo.x - b.hi[0], b.lo[0] - hi.x), 0);
+  const float gy = fmaxf(fmaxf(lo.y - b.hi[1], b.lo[1] - hi.y), 0);
+  const float gz = fmaxf(fmaxf(lo.z - b.hi[2], b.lo[2] - hi.z), 0);
+  const float reach = b.reach + d.w + size3(d.x - b.drift[0], d.y - b.drift[1], d.z - b.drift[2]);
   return gx * gx + gy * gy + gz * gz <= reach * reach * 1.00001f;
 }
 
-static __device__ void walk(const Search &a, Desk *w, Piece *p, Result *r)
+/* Takes leaves from the top of the stack, or opens up to four nodes there. */
+static __device__ __forceinline__ void pop(const Search &a, Desk *w, Piece *p)
 {
   const int lane = lane_of();
+  int2 e = make_int2(0, 0);
+  if (lane < p->stacked) e = w->stack[p->stacked - 1 - lane];
+  const unsigned open = __ballot_sync(ALL, e.y > 0); /* no bit: a leaf, or nothing */
+  const int leaves = open ? __ffs((int)open) - 1 : min(p->stacked, 32);
+  if (leaves) {
+    p->stacked -= leaves;
+    add_leaves(w, p, ALL >> (32 - leaves), e.x);
+    return;
+  }
+  const int opened = p->stacked > CROWD ? 1 : min(4, ~open ? __ffs((int)~open) - 1 : 32);
+  const int first = __shfl_sync(ALL, e.x, lane / 8), kids = __shfl_sync(ALL, e.y, lane / 8);
+  const int node = first + lane % 8;
+  const bool near = lane / 8 < opened && lane % 8 < kids && reaches(a, w->box, node);
+  int4 link = make_int4(0, 0, 0, 0);
+  if (near) link = __ldg(a.link + node);
+  const unsigned found = __ballot_sync(ALL, near), inner = __ballot_sync(ALL, near && link.y > 0);
+  const unsigned lead = inner ? found & ((inner & (0u - inner)) - 1) : found;
+  const unsigned push = found & ~lead;
+  p->stacked += __popc(push) - opened;
+  if (push >> lane & 1)
+    w->stack[p->stacked - 1 - rank_in(push)] =
+        link.y ? make_int2(link.x, link.y) : make_int2(node, 0);
+  add_leaves(w, p, lead, node);
+}
+
+static __device__ __forceinline__ void walk(const Search &a, Desk *w, Piece *p, Result *r)
+{
   const int4 root = __ldg(a.link);
+  bool last = false;
   p->leaves = p->filled = 0, p->stacked = 1;
-  if (lane == 0) w->stack[0] = root.y ? make_int2(root.x, root.y) : make_int2(0, 0);
-  __syncwarp();
-  while (p->stacked) {
-    int2 e = make_int2(0, 0);
-    if (lane < p->stacked) e = w->stack[p->stacked - 1 - lane];
-    const unsigned open = __ballot_sync(ALL, e.y > 0); /* no bit: a leaf, or nothing */
-    const int here = min(p->stacked, 32), leaves = open ? __ffs((int)open) - 1 : here;
-    if (leaves) {
-      p->stacked -= leaves;
-      add_leaves(a, w, p, r, leaves == 32 ? ALL : (1u << leaves) - 1, e.x);
-      continue;
-    }
-    const int most = p->stacked > CROWD ? 1 : 4;
-    const int opened = min(most, ~open ? __ffs((int)~open) - 1 : 32);
-    const int first = __shfl_sync(ALL, e.x, lane / 8), kids = __shfl_sync(ALL, e.y, lane / 8);
-    const int node = first + lane % 8;
-    const bool near = lane / 8 < opened && lane % 8 < kids && reaches(a, p, node);
-    int4 link = make_int4(0, 0, 0, 0);
-    if (near) link = __ldg(a.link + node);
-    const unsigned found = __ballot_sync(ALL, near), inner = __ballot_sync(ALL, near && link.y > 0);
-    const unsigned lead = inner ? found & ((inner & (0u - inner)) - 1) : found;
-    const unsigned push = found & ~lead;
-    p->stacked += __popc(push) - opened;
-    if (push >> lane & 1)
-      w->stack[p->stacked - 1 - rank_in(push)] =
-          link.y ? make_int2(link.x, link.y) : make_int2(node, 0);
+  if (lane_of() == 0) w->stack[0] = root.y ? make_int2(root.x, root.y) : make_int2(0, 0);
+  do {
     __syncwarp();
-    if (lead) add_leaves(a, w, p, r, lead, node);
-  }
-  open_leaves(a, w, p, r, p->leaves);
-  if (p->filled) {
-    const int at = slot_of((p->tiles & 1) * 32 + lane);
-    if (lane >= p->filled) w->rest[at] = NEVER, w->j[32 * p->tiles + lane] = ~0u;
-    if (lane >= p->filled) w->ring[at] = make_float4(0, 0, 0, 0);
-    p->filled = 32;
-    __syncwarp();
-    finish_tile(a, w, p, r);
-  }
+    last = !p->stacked && p->leaves <= 32;
+    if (p->leaves >= 32 || !p->stacked)
+      open_leaves(a, w, p, r, last);
+    else
+      pop(a, w, p);
+  } while (!last);
 }
 
 /* Box, mean drift and targets of the threads `on`. */
-static __device__ void set_piece(const Search &a, Piece *p, bool on, long i, int4 place)
+static __device__ __forceinline__ void set_piece(const Search &a, Desk *w, Piece *p, bool on,
+                                                 long i, int4 place)
 {
   const double il = 1 / a.unit.length;
   const int c[3] = {place.x, place.y, place.z}, lane = lane_of();
   float d[3] = {0, 0, 0}, at[3], s = 0, h = 0;
   const float share = 1 / (float)__popc(__ballot_sync(ALL, on));
-  p->cell = (float)(a.root->edge * PLACE_CELL * il);
+  const float cell = (float)(a.root->edge * PLACE_CELL * il);
+  Box b;
 #pragma unroll
   for (int k = 0; k < 3; k++) {
     if (on) d[k] = (float)((a.s.y[3 * i + k] - a.s.x[3 * i + k]) * il);
     const int lo = min_all(on ? c[k] : INT32_MAX), hi = -min_all(on ? -c[k] : 0);
-    p->drift[k] = add_all(d[k]) * share;
-    p->centre[k] = lo + (hi - lo) / 2;
-    p->half[k] = (float)(hi - lo) * p->cell * 0.500001f + p->cell;
-    p->lo[k] = (float)lo * p->cell * 0.9999996f, p->hi[k] = ((float)hi + 1) * p->cell * 1.0000004f;
-    at[k] = (float)(c[k] - p->centre[k]) * p->cell;
+    b.drift[k] = add_all(d[k]) * share;
+    b.centre[k] = lo + (hi - lo) / 2;
+    b.half[k] = (float)(hi - lo) * cell * 0.500001f + cell;
+    b.lo[k] = (float)lo * cell * 0.9999996f, b.hi[k] = ((float)hi + 1) * cell * 1.0000004f;
+    at[k] = (float)(c[k] - b.centre[k]) * cell;
   }
   if (on) {
-    const float off = size3(d[0] - p->drift[0], d[1] - p->drift[1], d[2] - p->drift[2]);
+    const float off = size3(d[0] - b.drift[0], d[1] - b.drift[1], d[2] - b.drift[2]);
     h = (float)(a.s.h[i] * il);
-    s = fmaxf(0.5f * h, (float)(0.5 * a.s.ha[i] * il) + off) * 1.000001f + p->cell;
+    s = fmaxf(0.5f * h, (float)(0.5 * a.s.ha[i] * il) + off) * 1.000001f + cell;
   }
-  p->reach = max_all(s), p->loose = p->reach > LOOSE * max_all(h);
+  b.reach = max_all(s), b.cell = cell, p->loose = b.reach > LOOSE * max_all(h);
   const float n = at[0] * at[0] + at[1] * at[1] + at[2] * at[2];
   const float least = on ? n * (1 - EPS) - s * s * (1 + EPS) : -NEVER;
 #pragma unroll
@@ -366,6 +385,8 @@ static __device__ void set_piece(const Search &a, Piece *p, bool on, long i, int
     p->z[k] = __shfl_sync(ALL, at[2], from), p->s[k] = __shfl_sync(ALL, s, from);
     p->least[k] = __shfl_sync(ALL, least, from);
   }
+  if (lane == 0) w->box = b;
+  __syncwarp();
 }
 
 /* Threads whose particle lies further from the one before than both supports. */
@@ -380,7 +401,8 @@ static __device__ unsigned jumps(const Search &a, bool on, long i, int4 v)
 }
 
 /* All pieces, one after another. */
-static __device__ void search_pieces(const Search &a, Desk *w, Piece *p, Result *r, bool on, long i)
+static __device__ __forceinline__ void search_pieces(const Search &a, Desk *w, Piece *p, Result *r,
+                                                     bool on, long i)
 {
   const int4 place = on ? a.place[i] : make_int4(0, 0, 0, 0);
   unsigned begin = jumps(a, on, i, place);
@@ -389,35 +411,47 @@ static __device__ void search_pieces(const Search &a, Desk *w, Piece *p, Result 
     const int from = __ffs((int)begin) - 1;
     begin &= begin - 1;
     const int end = begin ? __ffs((int)begin) - 1 : 32;
-    set_piece(a, p, on && lane_of() >= from && lane_of() < end, i, place);
+    set_piece(a, w, p, on && lane_of() >= from && lane_of() < end, i, place);
     walk(a, w, p, r);
   }
 }
 
-static __global__ void __launch_bounds__(THREADS) search_groups(const __grid_constant__ Search a)
+/* Rows for the warp's lists, of which this thread's is `mine` long; false: there is no room. */
+static __device__ bool take_rows(const Search &a, long group, int mine, uint32_t **list)
+{
+  const int rows = -min_all(-mine);
+  unsigned long long at = 0;
+  if (lane_of() == 0) {
+    at = atomicAdd(&a.report->rows, (unsigned long long)rows);
+    a.out.start[group] = (int64_t)at * CUDA_GROUP;
+  }
+  at = __shfl_sync(ALL, at, 0);
+  *list = a.out.list + at * CUDA_GROUP;
+  return (int64_t)(at + rows) * CUDA_GROUP <= a.out.room;
+}
+
+static __global__ void __launch_bounds__(THREADS, 5) search_groups(const __grid_constant__ Search a)
 {
   __shared__ Desk desk[WARPS];
   const int lane = lane_of();
-  const long group = (long)blockIdx.x * WARPS + threadIdx.x / 32, i = group * 32 + lane;
+  const long group = (long)blockIdx.x * WARPS + threadIdx.x / 32, i = group * CUDA_GROUP + lane;
   const bool on = i < a.s.n;
   Desk *w = desk + threadIdx.x / 32;
-  if (group * 32 >= a.s.n || *a.nodes > a.room) return;
+  if (group * CUDA_GROUP >= a.s.n || *a.nodes > a.room) return;
   Piece p;
-  Result r = {(uint32_t)(group * 32), NULL, 0, false};
-  search_pieces(a, w, &p, &r, on, i);
-  int mine = r.k;
-  for (int t = 0; t < p.tiles; t++) mine += __popc(w->hit[32 * t + lane]);
-  const int rows = -min_all(-mine);
-  unsigned long long at = 0;
-  if (lane == 0) at = atomicAdd(&a.report->rows, (unsigned long long)rows);
-  at = __shfl_sync(ALL, at, 0);
-  if (on) a.out.count[i] = mine;
-  if (lane == 0) a.out.start[group] = (int64_t)at * 32;
-  if ((int64_t)(at + rows) * 32 > a.out.room) return;
-  uint32_t *list = a.out.list + at * 32;
-  r.k = 0, r.rows = list;
-  if (r.again) search_pieces(a, w, &p, &r, on, i);
-  empty_tiles(w, &p, list, &r.k);
+  Result r = {(uint32_t)(group * CUDA_GROUP), NULL, 0, false};
+  for (bool done = false; !done;) {
+    search_pieces(a, w, &p, &r, on, i);
+    done = !r.again || r.rows;
+    if (!r.rows) {
+      int mine = r.k;
+      for (int t = 0; t < p.tiles; t++) mine += __popc(w->hit[32 * t + lane]);
+      if (on) a.out.count[i] = mine;
+      if (!take_rows(a, group, mine, &r.rows)) return;
+      r.k = 0;
+    }
+  }
+  empty_tiles(w, &p, r.rows, &r.k);
 }
 
 static int grow_list(Sim *sim, int64_t room, Err *err)

@@ -2,19 +2,19 @@
 /* The octree of sorted keys, without locks: the leaf of a particle is one level below the deepest
  * cell that holds it and TREE_BUCKET others, which are neighbours in the order; so each particle
  * knows by itself which nodes begin with it. Their numbers, counted by level and block and added
- * up, give every node its place. Moments go up from the leaves by eight threads a node: whoever
- * finishes the last child does the parent, and adds the children in their order. */
+ * up, give every node its place. Moments go up from the leaves, above these by eight threads a
+ * node: whoever finishes the last child does the parent, and adds the children in their order. */
 #include <cub/cub.cuh>
 #include "tree.cuh"
 
-enum { THREADS = 256, WARPS = THREADS / 32, LANES = 8, ROWS = CUDA_LEVELS + 1 };
+enum { THREADS = 256, WARPS = THREADS / 32, FAMILY = 8, HANDS = 4, ROWS = CUDA_LEVELS + 1 };
 static const unsigned ALL = ~0u;
 static __device__ const float NOWHERE = 1e38f;
 
 /* Everything that the kernels read and write. */
 typedef struct {
   State s;
-  Units unit;
+  double length, il, im; /* code unit [m]; 1/length, 1/mass */
   const Root *root;
   const uint64_t *key;
   DeviceTree t;
@@ -126,20 +126,23 @@ static __global__ void __launch_bounds__(THREADS) make_nodes(const __grid_consta
   if (i == 0) report_nodes(a);
 }
 
-/* Over the eight threads of a node; all get the same bits. */
-template <class T> static __device__ __forceinline__ T add8(T v)
+/* Over the LANES threads of a node; all get the same bits. */
+template <int LANES, class T> static __device__ __forceinline__ T add(T v)
 {
 #pragma unroll
   for (int k = LANES / 2; k; k /= 2) v += __shfl_xor_sync(ALL, v, k);
   return v;
 }
-static __device__ __forceinline__ float min8(float v)
+template <int LANES> static __device__ __forceinline__ float least(float v)
 {
 #pragma unroll
   for (int k = LANES / 2; k; k /= 2) v = fminf(v, __shfl_xor_sync(ALL, v, k));
   return v;
 }
-static __device__ __forceinline__ float max8(float v) { return -min8(-v); }
+template <int LANES> static __device__ __forceinline__ float most(float v)
+{
+  return -least<LANES>(-v);
+}
 
 /* What goes up. */
 typedef struct {
@@ -159,15 +162,16 @@ static __device__ __forceinline__ void add_quadrupole(double q[6], double m, dou
 }
 
 /* Mass, centre and box of all from those of the threads; sum: of m x. */
+template <int LANES>
 static __device__ __forceinline__ void join(const Build &a, Up *u, double sum[3])
 {
-  u->m = add8(u->m), u->h = max8(u->h), u->count = add8(u->count);
+  u->m = add<LANES>(u->m), u->h = most<LANES>(u->h), u->count = add<LANES>(u->count);
 #pragma unroll
   for (int d = 0; d < 3; d++) {
-    sum[d] = add8(sum[d]);
-    u->lo[d] = min8(u->lo[d]), u->hi[d] = max8(u->hi[d]);
+    sum[d] = add<LANES>(sum[d]);
+    u->lo[d] = least<LANES>(u->lo[d]), u->hi[d] = most<LANES>(u->hi[d]);
     u->com[d] = u->m > 0 ? sum[d] / u->m
-                         : a.root->origin[d] + 0.5 * ((double)u->lo[d] + u->hi[d]) * a.unit.length;
+                         : a.root->origin[d] + 0.5 * ((double)u->lo[d] + u->hi[d]) * a.length;
   }
 }
 
@@ -180,20 +184,21 @@ static __device__ __forceinline__ float size3(float x, float y, float z)
 static __device__ __forceinline__ void drift_of(const Build &a, long i, float out[3])
 {
 #pragma unroll
-  for (int d = 0; d < 3; d++)
-    out[d] = (float)((a.s.y[3 * i + d] - a.s.x[3 * i + d]) * (1 / a.unit.length));
+  for (int d = 0; d < 3; d++) out[d] = (float)((a.s.y[3 * i + d] - a.s.x[3 * i + d]) * a.il);
 }
 
-static __device__ __forceinline__ int fixed(double x, double origin, double edge)
+static __device__ __forceinline__ int fixed(double x, double origin, double cells)
 {
-  const double v = (x - origin) / edge / PLACE_CELL, last = 1 / PLACE_CELL - 1;
+  const double v = (x - origin) * cells, last = 1 / PLACE_CELL - 1;
   return (int)(v < last ? (v > 0 ? v : 0) : last);
 }
 
-/* What the search reads of particle i: its place and s, rounded up by more than both lose. */
-static __device__ float keep_place(const Build &a, long i, const float drift[3])
+/* What the search reads of particle i: its place and s, rounded up by more than both lose; cells:
+ * places per metre. */
+static __device__ __forceinline__ float keep_place(const Build &a, long i, const float drift[3],
+                                                   double cells)
 {
-  const double il = 1 / a.unit.length, *x = a.s.x + 3 * i;
+  const double il = a.il, *x = a.s.x + 3 * i;
   float e[3];
   drift_of(a, i, e);
   const float off = size3(e[0] - drift[0], e[1] - drift[1], e[2] - drift[2]);
@@ -204,9 +209,9 @@ static __device__ float keep_place(const Build &a, long i, const float drift[3])
     s = 0;
   }
   s = s * 1.000001f + (float)(a.root->edge * PLACE_CELL * il);
-  a.b.place[i] = make_int4(fixed(x[0], a.root->origin[0], a.root->edge),
-                           fixed(x[1], a.root->origin[1], a.root->edge),
-                           fixed(x[2], a.root->origin[2], a.root->edge), __float_as_int(s));
+  a.b.place[i] =
+      make_int4(fixed(x[0], a.root->origin[0], cells), fixed(x[1], a.root->origin[1], cells),
+                fixed(x[2], a.root->origin[2], cells), __float_as_int(s));
   return s;
 }
 
@@ -220,9 +225,12 @@ static __device__ __forceinline__ void start(Up *u)
 }
 
 /* Particles first .. end-1, none: the thread's node is no leaf. */
-static __device__ void sum_leaf(const Build &a, long first, long end, int rank, Up *u)
+template <int LANES>
+static __device__ __forceinline__ void sum_leaf(const Build &a, long first, long end, int rank,
+                                                Up *u)
 {
-  const double il = 1 / a.unit.length, *o = a.root->origin;
+  const double il = a.il, *o = a.root->origin;
+  const double cells = 1 / (a.root->edge * PLACE_CELL);
   double sum[3] = {0, 0, 0};
   start(u);
   for (long i = first + rank; i < end; i += LANES) {
@@ -238,21 +246,21 @@ static __device__ void sum_leaf(const Build &a, long first, long end, int rank, 
       u->hi[d] = fmaxf(u->hi[d], __double2float_ru(v));
     }
   }
-  join(a, u, sum);
+  join<LANES>(a, u, sum);
 #pragma unroll
-  for (int d = 0; d < 3; d++) u->drift[d] = add8(u->drift[d]) / (float)max(u->count, 1);
+  for (int d = 0; d < 3; d++) u->drift[d] = add<LANES>(u->drift[d]) / (float)max(u->count, 1);
   for (long i = first + rank; i < end; i += LANES) {
     const double *x = a.s.x + 3 * i;
     add_quadrupole(u->q, a.s.m[i], x[0] - u->com[0], x[1] - u->com[1], x[2] - u->com[2]);
-    u->reach = fmaxf(u->reach, keep_place(a, i, u->drift));
+    u->reach = fmaxf(u->reach, keep_place(a, i, u->drift, cells));
   }
 #pragma unroll
-  for (int k = 0; k < 6; k++) u->q[k] = add8(u->q[k]);
-  u->reach = max8(u->reach);
+  for (int k = 0; k < 6; k++) u->q[k] = add<LANES>(u->q[k]);
+  u->reach = most<LANES>(u->reach);
 }
 
 /* From child `child` of each thread, -1: none. Others have written it: past the first cache. */
-static __device__ void sum_children(const Build &a, int child, int children, Up *u)
+static __device__ __forceinline__ void sum_children(const Build &a, int child, int children, Up *u)
 {
   double c[4] = {0, 0, 0, 0}, sum[3];
   float4 drift = make_float4(0, 0, 0, 0);
@@ -274,47 +282,41 @@ static __device__ void sum_children(const Build &a, int child, int children, Up 
   u->m = c[0];
 #pragma unroll
   for (int d = 0; d < 3; d++) sum[d] = c[0] * c[1 + d];
-  join(a, u, sum);
+  join<FAMILY>(a, u, sum);
   add_quadrupole(u->q, c[0], c[1] - u->com[0], c[2] - u->com[1], c[3] - u->com[2]);
 #pragma unroll
-  for (int k = 0; k < 6; k++) u->q[k] = add8(u->q[k]);
+  for (int k = 0; k < 6; k++) u->q[k] = add<FAMILY>(u->q[k]);
   const float share = 1 / (float)max(children, 1);
-  u->drift[0] = add8(drift.x) * share, u->drift[1] = add8(drift.y) * share;
-  u->drift[2] = add8(drift.z) * share;
+  u->drift[0] = add<FAMILY>(drift.x) * share, u->drift[1] = add<FAMILY>(drift.y) * share;
+  u->drift[2] = add<FAMILY>(drift.z) * share;
   if (child >= 0)
     u->reach = 1.000001f * (drift.w + size3(drift.x - u->drift[0], drift.y - u->drift[1],
                                             drift.z - u->drift[2]));
-  u->reach = max8(u->reach);
+  u->reach = most<FAMILY>(u->reach);
 }
 
 static __device__ void keep_pole(const Build &a, int node, const Up &u)
 {
-  const double im = 1 / a.unit.mass, il = 1 / a.unit.length;
-  Pole p;
+  const double iq = a.im * a.il * a.il;
+  float hi[3], lo[3], q[6];
 #pragma unroll
   for (int d = 0; d < 3; d++) {
-    const double c = (u.com[d] - a.root->origin[d]) * il;
-    p.hi[d] = (float)c, p.lo[d] = (float)(c - (double)p.hi[d]);
+    const double c = (u.com[d] - a.root->origin[d]) * a.il;
+    hi[d] = __double2float_rn(c), lo[d] = __double2float_rn(c - (double)hi[d]);
   }
-  p.mass = (float)(u.m * im), p.pad = p.pad2[0] = p.pad2[1] = 0;
 #pragma unroll
-  for (int k = 0; k < 6; k++) p.q[k] = (float)(u.q[k] * im * il * il);
+  for (int k = 0; k < 6; k++) q[k] = __double2float_rn(u.q[k] * iq);
   float4 *to = (float4 *)(a.t.pole + node);
-  to[0] = make_float4(p.hi[0], p.hi[1], p.hi[2], p.mass);
-  to[1] = make_float4(p.lo[0], p.lo[1], p.lo[2], 0);
-  to[2] = make_float4(p.q[0], p.q[1], p.q[2], p.q[3]);
-  to[3] = make_float4(p.q[4], p.q[5], 0, 0);
-  a.t.com[node] = to[0];
+  to[0] = a.t.com[node] = make_float4(hi[0], hi[1], hi[2], __double2float_rn(u.m * a.im));
+  to[1] = make_float4(lo[0], lo[1], lo[2], 0);
+  to[2] = make_float4(q[0], q[1], q[2], q[3]), to[3] = make_float4(q[4], q[5], 0, 0);
 }
 
-static __device__ void keep(const Build &a, int node, int children, const Up &u)
+static __device__ void keep(const Build &a, int node, int first, const Up &u)
 {
   double2 *m = (double2 *)(a.t.moment + 10 * (size_t)node);
-  int4 link = a.t.link[node];
-  const int level = tree_common(a.key[link.z], a.key[link.z + u.count - 1]);
-  const double size = a.root->edge / (double)(1 << level) / a.unit.length;
-  link.y = children, link.w = u.count;
-  a.t.link[node] = link;
+  const int level = tree_common(a.key[first], a.key[first + u.count - 1]);
+  const double size = a.root->edge / (double)(1 << level) * a.il;
   a.t.lo[node] = make_float4(u.lo[0], u.lo[1], u.lo[2], __double2float_ru(size));
   a.t.hi[node] = make_float4(u.hi[0], u.hi[1], u.hi[2], u.h);
   a.b.drift[node] = make_float4(u.drift[0], u.drift[1], u.drift[2], u.reach);
@@ -324,34 +326,66 @@ static __device__ void keep(const Build &a, int node, int children, const Up &u)
   keep_pole(a, node, u);
 }
 
-/* Four nodes a warp: their leaves, then as far up as they are the last to come. */
-static __global__ void __launch_bounds__(THREADS) sum_up(const __grid_constant__ Build a)
+/* Leaves: HANDS threads each, as most hold three or four particles. */
+static __global__ void __launch_bounds__(THREADS, 3) sum_leaves(const __grid_constant__ Build a)
 {
-  const int nodes = a.t.level[ROWS], stride = (int)gridDim.x * THREADS / LANES;
-  const int lane = threadIdx.x % 32, rank = lane % LANES, head = lane - rank;
+  const int nodes = a.t.level[ROWS], stride = (int)gridDim.x * THREADS / HANDS;
+  const int lane = threadIdx.x % 32, rank = lane % HANDS;
   if (nodes > a.t.room) return;
-  for (int b = ((int)blockIdx.x * THREADS + (int)threadIdx.x - lane) / LANES; b < nodes;
+  for (int b = ((int)blockIdx.x * THREADS + (int)threadIdx.x - lane) / HANDS; b < nodes;
        b += stride) {
-    int node = b + lane / LANES, children = 0;
-    int4 link = make_int4(0, -1, 0, 0);
+    const int node = b + lane / HANDS;
+    const int4 link = node < nodes ? a.t.link[node] : make_int4(0, -1, 0, 0);
     Up u;
-    if (node < nodes) link = __ldcg(a.t.link + node);
-    bool on = node < nodes && link.y == 0;
-    sum_leaf(a, link.z, on ? (long)link.z + link.w : 0, rank, &u);
-    while (__any_sync(ALL, on)) {
-      if (on && rank == 0) keep(a, node, children, u);
-      __threadfence();
-      __syncwarp();
-      const int up = on ? a.b.parent[node] : -1;
-      const int first = up >= 0 ? a.t.link[up].x : 0;
-      const bool kin = up >= 0 && first + rank < nodes && a.b.parent[first + rank] == up;
-      children = __popc(__ballot_sync(ALL, kin) >> head & 255);
-      int came = 0;
-      if (up >= 0 && rank == 0) came = atomicAdd(a.b.arrived + up, 1);
-      came = __shfl_sync(ALL, came, head);
-      on = up >= 0 && came == children - 1, node = up;
-      __threadfence();
-      sum_children(a, on && kin ? first + rank : -1, children, &u);
+    sum_leaf<HANDS>(a, link.z, link.y == 0 ? (long)link.z + link.w : 0, rank, &u);
+    if (link.y == 0 && rank == 0) keep(a, node, link.z, u);
+  }
+}
+
+/* From the nodes `node` of a warp's four families as far up as they are the last to come; a node
+ * that has inner children waits for these. */
+static __device__ __forceinline__ void climb(const Build &a, int nodes, int node)
+{
+  const int lane = threadIdx.x % 32, rank = lane % FAMILY, head = lane - rank;
+  bool on = node >= 0, bottom = true;
+  while (__any_sync(ALL, on)) {
+    const int first = on ? a.t.link[node].x : 0, child = first + rank;
+    const bool kin = on && child < nodes && a.b.parent[child] == node;
+    const int kids = __popc(__ballot_sync(ALL, kin) >> head & 255);
+    const bool inner = kin && __ldcg(&a.t.link[child].y) != 0;
+    const int inners = __popc(__ballot_sync(ALL, inner) >> head & 255);
+    int came = -1;
+    if (on && !bottom && rank == 0) came = atomicAdd(a.b.arrived + node, 1);
+    came = __shfl_sync(ALL, came, head);
+    on = on && came == inners - 1, bottom = false;
+    __threadfence();
+    Up u;
+    sum_children(a, on && kin ? child : -1, kids, &u);
+    if (on && rank == 0) {
+      int4 link = a.t.link[node];
+      link.y = kids, link.w = u.count;
+      a.t.link[node] = link;
+      keep(a, node, link.z, u);
+    }
+    __threadfence();
+    __syncwarp();
+    node = on ? a.b.parent[node] : -1, on = node >= 0;
+  }
+}
+
+/* All others, from those with leaves only; a warp looks for these among 32 nodes at a time. */
+static __global__ void __launch_bounds__(THREADS, 3) sum_up(const __grid_constant__ Build a)
+{
+  const int nodes = a.t.level[ROWS], stride = (int)gridDim.x * THREADS;
+  const int lane = threadIdx.x % 32;
+  if (nodes > a.t.room) return;
+  for (int b = (int)blockIdx.x * THREADS + (int)threadIdx.x - lane; b < nodes; b += stride) {
+    unsigned inner = __ballot_sync(ALL, b + lane < nodes && __ldcg(&a.t.link[b + lane].y) != 0);
+    for (int took = 0; inner; took = 0) {
+      int node = -1;
+      for (; inner && took < 32 / FAMILY; inner &= inner - 1, took++)
+        if (took == lane / FAMILY) node = b + __ffs((int)inner) - 1;
+      climb(a, nodes, node);
     }
   }
 }
@@ -364,12 +398,22 @@ int cuda_tree(Sim *sim, Err *err)
   CudaError *error = &c->error;
   struct CudaTree *b = c->build;
   const int blocks = blocks_of(sim->s.n), most = 8 * 132;
-  Build a = {sim->s, c->unit, c->root, c->order->key[0], c->tree, *b, c->order->report, blocks};
+  Build a = {sim->s,
+             c->unit.length,
+             1 / c->unit.length,
+             1 / c->unit.mass,
+             c->root,
+             c->order->key[0],
+             c->tree,
+             *b,
+             c->order->report,
+             blocks};
   LAUNCH(count_nodes, blocks, THREADS, 0, c->stream, a);
   if (!error->code)
     CHECK(cub::DeviceScan::ExclusiveSum(b->scan, b->scan_bytes, b->count, b->base,
                                         ROWS * blocks + 1, c->stream));
   LAUNCH(make_nodes, blocks, THREADS, 0, c->stream, a);
+  LAUNCH(sum_leaves, blocks < most ? blocks : most, THREADS, 0, c->stream, a);
   LAUNCH(sum_up, blocks < most ? blocks : most, THREADS, 0, c->stream, a);
   return launch_failed(error, err);
 }

@@ -143,7 +143,8 @@ template <class T, class F> T update(T *p, F f)
   return old;
 }
 
-/* rounded: x, which the compiler may not take into a fused multiply-add. */
+/* rounded: x, which the compiler may not take into a fused multiply-add, nor take for the number
+ * that it is the rounding of (gcc 12 does so with vectors). */
 template <class T> T rounded(T x)
 {
   __asm__ __volatile__("" : "+m"(x));
@@ -365,7 +366,7 @@ static inline int __float2int_rd(float x) { return (int)floorf(x); }
 static inline int __float2int_rn(float x) { return (int)rintf(x); }
 static inline int __float2int_rz(float x) { return (int)x; }
 static inline unsigned __float2uint_rd(float x) { return (unsigned)floorf(x); }
-static inline float __double2float_rn(double x) { return (float)x; }
+static inline float __double2float_rn(double x) { return host::rounded((float)x); }
 static inline float __double2float_rd(double x)
 {
   float f = (float)x;
