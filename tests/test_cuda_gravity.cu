@@ -90,7 +90,7 @@ static void errors_of_the_tree(void **state)
   (void)state;
   for (int k = 0; k < 5; k++) {
     const int of[] = {0, 0, SPHERE, TWO_BODIES, CLUSTERS};
-    GravityLab *l = lab_new(k < 2 ? lab_spheres(3000, k) : shape(of[k], 3000, 5, 2));
+    GravityLab *l = lab_new(k < 2 ? lab_spheres(2000, k) : shape(of[k], 2000, 5, 2));
     const Errors e = against_direct(l, 0.7, PARAM_TREE, PARAM_MIXED);
     if (!(e.median < 8e-4 && e.p99 < 8e-3 && e.phi < 2e-3))
       fail_msg("cloud %d: median %g, 99 %% %g, phi %g", k, e.median, e.p99, e.phi);
@@ -102,7 +102,7 @@ static void errors_of_the_tree(void **state)
 static void error_falls_as_theta_to_the_fourth(void **state)
 {
   (void)state;
-  GravityLab *l = lab_new(shape(SPHERE, 4000, 6, 1));
+  GravityLab *l = lab_new(shape(SPHERE, 2500, 6, 1));
   const Errors low = against_direct(l, 0.4, PARAM_TREE, PARAM_DOUBLE),
                high = against_direct(l, 0.8, PARAM_TREE, PARAM_DOUBLE);
   const double slope = log(high.median / low.median) / log(2);
@@ -131,7 +131,7 @@ static void single_precision_of_any_size(void **state)
   const double length[] = {1e-9, 1, 1e15}, mass[] = {1e-30, 1, 1e25}, shift[] = {0, 1e9, 0};
   for (int k : {SPHERE, TWO_BODIES, CLUSTERS, LINE, OUTLIER})
     for (int unit = 0; unit < 3; unit++) {
-      Cloud c = shape(k, 700, 8, 3);
+      Cloud c = shape(k, 300, 8, 3);
       for (long i = 0; i < c.n; i++) {
         c.m[i] *= mass[unit], c.h[i] *= length[unit];
         for (int d = 0; d < 3; d++) c.x[3 * i + d] = c.x[3 * i + d] * length[unit] + shift[unit];
@@ -147,8 +147,8 @@ static void single_precision_of_any_size(void **state)
     }
 }
 
-/* Direct sums: pairs cancel to the rounding of a double, in single precision as well. The tree: what
- * force and torque are left over is taken off. The pull is added to acc. */
+/* Direct sums: pairs cancel to the rounding of a double, in single precision as well. The tree: the
+ * force and torque that are left over are taken off. The pull is added to acc. */
 static void momentum_is_conserved(void **state)
 {
   (void)state;

@@ -139,16 +139,16 @@ static __global__ void recoil_parts(const __grid_constant__ Walk w, const Recoil
 {
   Sum o = {};
   for (int64_t i = (int64_t)blockIdx.x * RECOIL_THREADS + threadIdx.x; i < w.n;
-       i += RECOIL_BLOCKS * RECOIL_THREADS)
+       i += gridDim.x * RECOIL_THREADS)
     recoil_add(&o, w, k, i);
   recoil_join(&o);
   if (threadIdx.x == 0) part[blockIdx.x] = o;
 }
 
-template <class Sum> static __global__ void recoil_all(const Sum *part, Recoil *k)
+template <class Sum> static __global__ void recoil_all(const Sum *part, int parts, Recoil *k)
 {
   Sum o = {};
-  for (int b = (int)threadIdx.x; b < RECOIL_BLOCKS; b += RECOIL_THREADS) recoil_merge(&o, part + b);
+  for (int b = (int)threadIdx.x; b < parts; b += RECOIL_THREADS) recoil_merge(&o, part + b);
   recoil_join(&o);
   if (threadIdx.x == 0) recoil_keep(k, &o);
 }
@@ -210,14 +210,15 @@ static void tree(Sim *sim, const Walk &w, int single)
   Cuda *c = cuda_of(sim);
   CudaGravity *g = c->gravity;
   CudaError *error = &c->error;
+  const unsigned all = launch_blocks((size_t)w.n, RECOIL_THREADS),
+                 parts = all < RECOIL_BLOCKS ? all : RECOIL_BLOCKS;
   LAUNCH(single ? walk_tree<float> : walk_tree<double>,
          launch_blocks((size_t)w.n, (unsigned)w.chunk), 32, 0, c->stream, w);
-  LAUNCH(recoil_parts<RecoilForce>, RECOIL_BLOCKS, RECOIL_THREADS, 0, c->stream, w, g->recoil,
-         g->force);
-  LAUNCH(recoil_all<RecoilForce>, 1, RECOIL_THREADS, 0, c->stream, g->force, g->recoil);
-  LAUNCH(recoil_parts<RecoilTorque>, RECOIL_BLOCKS, RECOIL_THREADS, 0, c->stream, w, g->recoil,
-         g->torque);
-  LAUNCH(recoil_all<RecoilTorque>, 1, RECOIL_THREADS, 0, c->stream, g->torque, g->recoil);
+  LAUNCH(recoil_parts<RecoilForce>, parts, RECOIL_THREADS, 0, c->stream, w, g->recoil, g->force);
+  LAUNCH(recoil_all<RecoilForce>, 1, RECOIL_THREADS, 0, c->stream, g->force, (int)parts, g->recoil);
+  LAUNCH(recoil_parts<RecoilTorque>, parts, RECOIL_THREADS, 0, c->stream, w, g->recoil, g->torque);
+  LAUNCH(recoil_all<RecoilTorque>, 1, RECOIL_THREADS, 0, c->stream, g->torque, (int)parts,
+         g->recoil);
 }
 
 int cuda_gravity(Sim *sim, Err *err)
