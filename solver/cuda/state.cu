@@ -10,7 +10,7 @@ int cuda_alloc(Sim *sim, void **at, size_t bytes, Err *err)
   Cuda *c = cuda_of(sim);
   size_t available = 0, total = 0;
   cudaError_t code = cudaMalloc(at, rounded(bytes ? bytes : 1));
-  if (code == cudaSuccess) code = cudaMemset(*at, 0, bytes);
+  if (code == cudaSuccess) code = cudaMemsetAsync(*at, 0, bytes, c->stream);
   if (code == cudaSuccess) {
     c->bytes += rounded(bytes ? bytes : 1);
     return 0;
