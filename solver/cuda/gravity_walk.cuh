@@ -310,6 +310,7 @@ INLINE void walk_group(const Walk &w, WalkShared<Real> *s, int first, int count)
                    opens = __ballot_sync(~0u, !accept && inner),
                    leaves = __ballot_sync(~0u, look && !accept && !inner);
     top = base;
+    __syncwarp(); /* all have read their ranges */
     if (!accept && inner)
       s->stack[top + __popc(opens & below)] = (uint32_t)link.x | (uint32_t)(link.y - 1) << 29;
     if (accept) s->node[nodes + __popc(accepts & below)] = k;
