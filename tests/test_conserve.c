@@ -64,7 +64,7 @@ static void collision(void **state)
     Parts *p = drops(3, 0, 1);
     Param par = lab_param("gravity.G=0.05", "gravity.method=direct", integrators[k % 2],
                           densities[k / 2 % 2], k % 2 ? "step.max=0" : "step.max=0.006",
-                          modes[k / 4], NULL);
+                          modes[k / 4], "precision=double", NULL);
     Sums a, b;
     int steps;
     double l = 0, m = 0;
@@ -90,10 +90,10 @@ static void frames(void **state)
   (void)state;
   for (int k = 0; k < 4; k++) {
     Parts *p = drops(3, 0, 1), *q = drops(3, k % 2 ? 10 : 0, k % 2 ? 1 : -1);
-    Param par =
-        lab_param("gravity.G=0.05", "gravity.method=direct", "step.max=0.02", "step.cfl=2",
-                  "step.acceleration=2", "step.density=10",
-                  k / 2 ? "integrator=rk2-adaptive" : "integrator=leapfrog", "step.error=1", NULL);
+    Param par = lab_param("gravity.G=0.05", "gravity.method=direct", "step.max=0.02", "step.cfl=2",
+                          "step.acceleration=2", "step.density=10",
+                          k / 2 ? "integrator=rk2-adaptive" : "integrator=leapfrog", "step.error=1",
+                          "precision=double", NULL);
     Sums a, b;
     int steps;
     double worst = 0;
