@@ -7,7 +7,7 @@ setup() {
   export CALLS=$BATS_TEST_TMPDIR/calls LACKS= UNKNOWN= USERID=0
   mkdir "$machine"
   for p in grep env; do ln -s "$(command -v $p)" "$machine/$p"; done
-  for p in make bats h5dump gnuplot clang-format groff sleep; do has $p :; done
+  for p in make g++ bats h5dump gnuplot clang-format groff sleep; do has $p :; done
   has gcc 'while read -r line; do for h in $LACKS; do [[ $line != *"<$h>"* ]] || exit 1; done; done'
   has id 'echo $USERID'
   has sudo 'echo sudo >>"$CALLS"; exec "$@"'
