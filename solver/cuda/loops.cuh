@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The pair loops on the device, in one precision; loops_mixed.cu and loops_double.cu say which
  * (real), how four numbers are packed (Quad) and how a vector is kept such that differences of two
- * are exact enough (Place, place_*). One thread sums over the list of one particle. What it reads
- * of a neighbour is packed once per loop into 16-byte (32-byte) records, in code units.
+ * are exact enough (Place, place_*). One thread sums over the list of one particle; lists
+ * of more than CROWD entries are left to a second kernel in which a warp shares them, so that a few
+ * very long ones do not hold up all others. What is read of a neighbour is packed once per loop into 16-byte (32-byte) records,
+ * in code units.
  *
  * Kernel, solid and miscible are literals; a line (1D) has one general instance of each loop. */
 #include "loops.h"
 
-enum { THREADS = 128 };
+enum { THREADS = 128, CROWD = 128 };
 
 /* One loop's records: two vectors and up to four quads. */
 typedef struct {
@@ -29,8 +31,8 @@ typedef struct {
   PairRun run;
   const Root *root;
   Units unit;
-  double rho, push; /* unit of density [kg/m^D]; code units a unit of State.push */
-  int kern;         /* for the general instances */
+  double rho, push;   /* unit of density [kg/m^D]; code units a unit of State.push */
+  int kern, miscible; /* for the general instances; the form of the density */
 } Loop;
 
 static __device__ long self_of(void) { return (long)blockIdx.x * blockDim.x + threadIdx.x; }
@@ -70,36 +72,68 @@ template <int solid> static __global__ void pack_body(Loop a)
   a.r.q[3][i] = quad(t[5] * it, t[6] * it, t[7] * it, t[8] * it);
 }
 
-template <int kern, int line, int solid> static __global__ void gradient_loop(Loop a)
+template <class T> static __device__ __forceinline__ T from_lane(T x, int k)
 {
-  const long i = self_of();
-  const State &s = a.s;
-  if (i >= s.n) return;
-  const int kernel = line ? a.kern : kern, n = a.count[i];
-  real hi, hj, volume, none;
-  const Place xi = place_get(a.r.x, i, &hi, &volume), vi = place_get(a.r.v, i, &none, &none);
-  PairGradient g = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
-  for (int k = 0; k < n; k++) {
-    const long j = neighbour(a, i, k);
-    const Place xj = place_get(a.r.x, j, &hj, &volume), vj = place_get(a.r.v, j, &none, &none);
-    const PairGradient o = pair_gradient(place_between(xi, xj), place_between(vi, vj),
-                                         0.5f * (hi + hj), volume, kernel, line, solid, &a.run);
-    g.gxx += o.gxx;
-    if (!solid) continue;
-    g.gxy += o.gxy, g.gxz += o.gxz, g.gyx += o.gyx, g.gyy += o.gyy, g.gyz += o.gyz;
-    g.gzx += o.gzx, g.gzy += o.gzy, g.gzz += o.gzz;
-    g.mxx += o.mxx, g.mxy += o.mxy, g.mxz += o.mxz, g.myy += o.myy, g.myz += o.myz, g.mzz += o.mzz;
-  }
-  const double rate = a.unit.speed / a.unit.length;
-  if (!solid) {
-    s.divv[i] = rate * g.gxx;
-  } else {
-    const double raw[9] = {rate * g.gxx, rate * g.gxy, rate * g.gxz, rate * g.gyx, rate * g.gyy,
-                           rate * g.gyz, rate * g.gzx, rate * g.gzy, rate * g.gzz};
-    const Sym m = {g.mxx, g.mxy, g.mxz, g.myy, g.myz, g.mzz};
-    pass_correct(&s, i, raw, m);
-  }
+  return __shfl_xor_sync(~0u, x, k);
 }
+
+static __device__ __forceinline__ PairGradient add_two(PairGradient a, PairGradient b)
+{
+  a.gxx += b.gxx, a.gxy += b.gxy, a.gxz += b.gxz, a.gyx += b.gyx, a.gyy += b.gyy, a.gyz += b.gyz;
+  a.gzx += b.gzx, a.gzy += b.gzy, a.gzz += b.gzz;
+  a.mxx += b.mxx, a.mxy += b.mxy, a.mxz += b.mxz, a.myy += b.myy, a.myz += b.myz, a.mzz += b.mzz;
+  return a;
+}
+
+/* Each lane adds what the lane with the other bit k has. */
+static __device__ __forceinline__ void add_from(PairGradient *a, int k)
+{
+  const PairGradient b = {from_lane(a->gxx, k), from_lane(a->gxy, k), from_lane(a->gxz, k),
+                          from_lane(a->gyx, k), from_lane(a->gyy, k), from_lane(a->gyz, k),
+                          from_lane(a->gzx, k), from_lane(a->gzy, k), from_lane(a->gzz, k),
+                          from_lane(a->mxx, k), from_lane(a->mxy, k), from_lane(a->mxz, k),
+                          from_lane(a->myy, k), from_lane(a->myz, k), from_lane(a->mzz, k)};
+  *a = add_two(*a, b);
+}
+
+/* A loop is a struct with two functions: sum, over entries from, from + step, ... of the list of i,
+ * and keep, which makes of the whole sum what the loop is for. */
+template <int kern, int line, int solid> struct Gradient {
+  typedef PairGradient Sum;
+
+  static __device__ __forceinline__ PairGradient sum(const Loop &a, long i, int from, int step)
+  {
+    const int n = a.count[i];
+    real hi, hj, volume, none;
+    const Place xi = place_get(a.r.x, i, &hi, &volume), vi = place_get(a.r.v, i, &none, &none);
+    PairGradient g = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+    for (int k = from; k < n; k += step) {
+      const long j = neighbour(a, i, k);
+      const Place xj = place_get(a.r.x, j, &hj, &volume), vj = place_get(a.r.v, j, &none, &none);
+      const PairGradient o =
+          pair_gradient(place_between(xi, xj), place_between(vi, vj), 0.5f * (hi + hj), volume,
+                        line ? a.kern : kern, line, solid, &a.run);
+      if (solid)
+        g = add_two(g, o);
+      else
+        g.gxx += o.gxx;
+    }
+    return g;
+  }
+
+  static __device__ __forceinline__ void keep(const Loop &a, long i, PairGradient g)
+  {
+    const double rate = a.unit.speed / a.unit.length;
+    if (!solid) {
+      a.s.divv[i] = rate * g.gxx;
+    } else {
+      const double raw[9] = {rate * g.gxx, rate * g.gxy, rate * g.gxz, rate * g.gyx, rate * g.gyy,
+                             rate * g.gyz, rate * g.gzx, rate * g.gzy, rate * g.gzz};
+      const Sym m = {g.mxx, g.mxy, g.mxz, g.myy, g.myz, g.mzz};
+      pass_correct(&a.s, i, raw, m);
+    }
+  }
+};
 
 /* The record of particle i for loop B; *at and the mass come with its place. */
 template <int solid> static __device__ PairBody body_get(const Records &r, long i, Place *at)
@@ -122,50 +156,123 @@ template <int solid> static __device__ PairBody body_get(const Records &r, long 
 
 /* Forces on pairs are equal and opposite to the last bit, and their sums are double: the momentum
  * of all is kept to rounding of double. */
-template <int kern, int line, int solid, int miscible> static __global__ void force_loop(Loop a)
+typedef struct {
+  double fx, fy, fz, work;
+  real signal, near;
+} Forces;
+
+static __device__ __forceinline__ Forces add_two(Forces a, Forces b)
 {
-  const long i = self_of();
-  const State &s = a.s;
-  if (i >= s.n) return;
-  const int kernel = line ? a.kern : kern, n = a.count[i];
-  Place xi, xj;
-  const PairBody self = body_get<solid>(a.r, i, &xi);
-  double fx = 0, fy = 0, fz = 0, work = 0;
-  real signal = 2 * self.signal, near = 0;
-  for (int k = 0; k < n; k++) {
-    const PairBody other = body_get<solid>(a.r, neighbour(a, i, k), &xj);
-    const PairForce o =
-        pair_force(place_between(xi, xj), &self, &other, kernel, line, solid, miscible, &a.run);
-    fx += o.fx, fy += o.fy, fz += o.fz, work += o.work, near += o.near;
-    signal = o.signal > signal ? o.signal : signal;
-  }
-  const double pull = a.unit.mass * a.unit.speed * a.unit.speed / a.unit.length / s.m[i];
-  s.acc[3 * i] = fx * pull, s.acc[3 * i + 1] = fy * pull, s.acc[3 * i + 2] = fz * pull;
-  s.du[i] = work * pull * a.unit.speed;
-  s.signal[i] = a.unit.speed * signal;
-  s.nngb[i] = (int)near;
+  a.fx += b.fx, a.fy += b.fy, a.fz += b.fz, a.work += b.work, a.near += b.near;
+  a.signal = b.signal > a.signal ? b.signal : a.signal;
+  return a;
 }
 
+static __device__ __forceinline__ void add_from(Forces *a, int k)
+{
+  const Forces b = {from_lane(a->fx, k),   from_lane(a->fy, k),     from_lane(a->fz, k),
+                    from_lane(a->work, k), from_lane(a->signal, k), from_lane(a->near, k)};
+  *a = add_two(*a, b);
+}
+
+template <int kern, int line, int solid, int miscible> struct Force {
+  typedef Forces Sum;
+
+  static __device__ __forceinline__ Forces sum(const Loop &a, long i, int from, int step)
+  {
+    const int n = a.count[i];
+    Place xi, xj;
+    const PairBody self = body_get<solid>(a.r, i, &xi);
+    Forces f = {0, 0, 0, 0, 2 * self.signal, 0};
+    for (int k = from; k < n; k += step) {
+      const PairBody other = body_get<solid>(a.r, neighbour(a, i, k), &xj);
+      const PairForce o = pair_force(place_between(xi, xj), &self, &other, line ? a.kern : kern,
+                                     line, solid, miscible, &a.run);
+      const Forces one = {o.fx, o.fy, o.fz, o.work, o.signal, o.near};
+      f = add_two(f, one);
+    }
+    return f;
+  }
+
+  static __device__ __forceinline__ void keep(const Loop &a, long i, Forces f)
+  {
+    const State &s = a.s;
+    const double pull = a.unit.mass * a.unit.speed * a.unit.speed / a.unit.length / s.m[i];
+    s.acc[3 * i] = f.fx * pull, s.acc[3 * i + 1] = f.fy * pull, s.acc[3 * i + 2] = f.fz * pull;
+    s.du[i] = f.work * pull * a.unit.speed;
+    s.signal[i] = a.unit.speed * f.signal;
+    s.nngb[i] = (int)f.near;
+  }
+};
+
 /* Kernel sums: rho, delta, and rhoa, the mean of rho before and after (cpu/loops.c). */
-template <int kern, int line> static __global__ void density_loop(Loop a, int miscible)
+typedef struct {
+  double delta, rho;
+} Density;
+
+static __device__ __forceinline__ Density add_two(Density a, Density b)
+{
+  a.delta += b.delta, a.rho += b.rho;
+  return a;
+}
+
+static __device__ __forceinline__ void add_from(Density *a, int k)
+{
+  const Density b = {from_lane(a->delta, k), from_lane(a->rho, k)};
+  *a = add_two(*a, b);
+}
+
+template <int kern, int line> struct Densities {
+  typedef Density Sum;
+
+  static __device__ __forceinline__ Density sum(const Loop &a, long i, int from, int step)
+  {
+    const int n = a.count[i];
+    real hi, hj, m;
+    const Place xi = place_get(a.r.x, i, &hi, &m);
+    Density sum = {0, 0};
+    for (int k = from; k < n; k += step) {
+      const PairVector r = place_between(xi, place_get(a.r.x, neighbour(a, i, k), &hj, &m));
+      const real w =
+          pair_weight(line ? a.kern : kern, line, &a.run, pair_dot(r, r), 0.5f * (hi + hj));
+      sum.delta += w, sum.rho += m * w;
+    }
+    return sum;
+  }
+
+  static __device__ __forceinline__ void keep(const Loop &a, long i, Density sum)
+  {
+    const State &s = a.s;
+    const double before = s.rho[i];
+    real h, m;
+    place_get(a.r.x, i, &h, &m);
+    const real own = pair_weight(line ? a.kern : kern, line, &a.run, 0, h);
+    sum.delta += own, sum.rho += m * own;
+    s.delta[i] = sum.delta * a.rho / a.unit.mass;
+    s.rho[i] = a.miscible ? s.m[i] * s.delta[i] : sum.rho * a.rho;
+    s.rhoa[i] = sqrt(before * s.rho[i]);
+  }
+};
+
+/* A thread a particle. */
+template <class Of> static __global__ void each(Loop a)
 {
   const long i = self_of();
-  const State &s = a.s;
-  if (i >= s.n) return;
-  const int kernel = line ? a.kern : kern, n = a.count[i];
-  real hi, mi, hj, mj;
-  const Place xi = place_get(a.r.x, i, &hi, &mi);
-  const real own = pair_weight(kernel, line, &a.run, 0, hi);
-  double delta = own, rho = mi * own;
-  const double before = s.rho[i];
-  for (int k = 0; k < n; k++) {
-    const PairVector r = place_between(xi, place_get(a.r.x, neighbour(a, i, k), &hj, &mj));
-    const real w = pair_weight(kernel, line, &a.run, pair_dot(r, r), 0.5f * (hi + hj));
-    delta += w, rho += mj * w;
+  if (i < a.s.n && a.count[i] <= CROWD) Of::keep(a, i, Of::sum(a, i, 0, 1));
+}
+
+/* A warp a particle, where lists are long. */
+template <class Of> static __global__ void crowded(Loop a)
+{
+  const long i = self_of(), first = i - i % 32;
+  const int lane = (int)(i % 32);
+  unsigned left = __ballot_sync(~0u, i < a.s.n && a.count[i] > CROWD);
+  for (; left; left &= left - 1) {
+    const int owner = __ffs((int)left) - 1;
+    typename Of::Sum sum = Of::sum(a, first + owner, lane, 32);
+    for (int k = 16; k > 0; k /= 2) add_from(&sum, k);
+    if (lane == owner) Of::keep(a, i, sum);
   }
-  s.delta[i] = delta * a.rho / a.unit.mass;
-  s.rho[i] = miscible ? s.m[i] * s.delta[i] : rho * a.rho;
-  s.rhoa[i] = sqrt(before * s.rho[i]);
 }
 
 /* Places for the density sums: x with h and m. */
@@ -179,22 +286,25 @@ static __global__ void pack_places(Loop a)
             (x[2] - a.root->origin[2]) * il, (real)(s.h[i] * il), (real)(s.m[i] / a.unit.mass));
 }
 
-/* The stamps. */
+/* The stamps: the kernel for most particles, and that for the crowded. */
 /* clang-format off */
-typedef void (*Kernel1)(Loop);
-typedef void (*Kernel2)(Loop, int);
+typedef void (*Run)(Loop);
+typedef struct {
+  Run each, crowded;
+} Stamp;
+#define STAMP(...) {each<__VA_ARGS__>, crowded<__VA_ARGS__>}
 #define GRADIENT_ROW(CAPITAL, ...) \
-  {gradient_loop<KERNEL_##CAPITAL, 0, 0>, gradient_loop<KERNEL_##CAPITAL, 0, 1>},
+  {STAMP(Gradient<KERNEL_##CAPITAL, 0, 0>), STAMP(Gradient<KERNEL_##CAPITAL, 0, 1>)},
 #define FORCE_ROW(CAPITAL, ...) \
-  {force_loop<KERNEL_##CAPITAL, 0, 0, 0>, force_loop<KERNEL_##CAPITAL, 0, 1, 0>, \
-   force_loop<KERNEL_##CAPITAL, 0, 0, 1>, force_loop<KERNEL_##CAPITAL, 0, 1, 1>},
-#define DENSITY_ROW(CAPITAL, ...) density_loop<KERNEL_##CAPITAL, 0>,
-static const Kernel1 gradient_stamps[KERNEL_COUNT][2] = {KERNELS(GRADIENT_ROW)};
-static const Kernel1 force_stamps[KERNEL_COUNT][4] = {KERNELS(FORCE_ROW)};
-static const Kernel2 density_stamps[KERNEL_COUNT] = {KERNELS(DENSITY_ROW)};
-static const Kernel1 gradient_line = gradient_loop<0, 1, 1>;
-static const Kernel1 force_line[2] = {force_loop<0, 1, 1, 0>, force_loop<0, 1, 1, 1>};
-static const Kernel2 density_line = density_loop<0, 1>;
+  {STAMP(Force<KERNEL_##CAPITAL, 0, 0, 0>), STAMP(Force<KERNEL_##CAPITAL, 0, 1, 0>), \
+   STAMP(Force<KERNEL_##CAPITAL, 0, 0, 1>), STAMP(Force<KERNEL_##CAPITAL, 0, 1, 1>)},
+#define DENSITY_ROW(CAPITAL, ...) STAMP(Densities<KERNEL_##CAPITAL, 0>),
+static const Stamp gradient_stamps[KERNEL_COUNT][2] = {KERNELS(GRADIENT_ROW)};
+static const Stamp force_stamps[KERNEL_COUNT][4] = {KERNELS(FORCE_ROW)};
+static const Stamp density_stamps[KERNEL_COUNT] = {KERNELS(DENSITY_ROW)};
+static const Stamp gradient_line = STAMP(Gradient<0, 1, 1>);
+static const Stamp force_line[2] = {STAMP(Force<0, 1, 1, 0>), STAMP(Force<0, 1, 1, 1>)};
+static const Stamp density_line = STAMP(Densities<0, 1>);
 /* clang-format on */
 
 static Loop loop_of(const Sim *sim)
@@ -211,47 +321,39 @@ static Loop loop_of(const Sim *sim)
   a.rho = c->unit.mass / volume;
   a.push = (sim->miscible ? 1 / (volume * volume) : a.rho * a.rho) /
            (a.rho * c->unit.speed * c->unit.speed);
-  a.kern = sim->par.kernel;
+  a.kern = sim->par.kernel, a.miscible = !!sim->miscible;
   return a;
+}
+
+static void run_loop(Sim *sim, Run pack, const Stamp *loop)
+{
+  Cuda *c = cuda_of(sim);
+  CudaError *error = &c->error;
+  const Loop a = loop_of(sim);
+  const unsigned blocks = launch_blocks((size_t)sim->s.n, THREADS);
+  LAUNCH(pack, blocks, THREADS, 0, c->stream, a);
+  LAUNCH(loop->each, blocks, THREADS, 0, c->stream, a);
+  LAUNCH(loop->crowded, blocks, THREADS, 0, c->stream, a);
 }
 
 static void gradient(Sim *sim)
 {
-  Cuda *c = cuda_of(sim);
-  CudaError *error = &c->error;
-  const Loop a = loop_of(sim);
-  const unsigned blocks = launch_blocks((size_t)sim->s.n, THREADS);
-  const Kernel1 loop =
-      sim->s.dimension == 1 ? gradient_line : gradient_stamps[sim->par.kernel][!!sim->solid];
-  LAUNCH(pack_flow, blocks, THREADS, 0, c->stream, a);
-  LAUNCH(loop, blocks, THREADS, 0, c->stream, a);
+  run_loop(sim, pack_flow,
+           sim->s.dimension == 1 ? &gradient_line
+                                 : &gradient_stamps[sim->par.kernel][!!sim->solid]);
 }
 
 static void density(Sim *sim)
 {
-  Cuda *c = cuda_of(sim);
-  CudaError *error = &c->error;
-  const Loop a = loop_of(sim);
-  const unsigned blocks = launch_blocks((size_t)sim->s.n, THREADS);
-  const Kernel2 loop = sim->s.dimension == 1 ? density_line : density_stamps[sim->par.kernel];
-  LAUNCH(pack_places, blocks, THREADS, 0, c->stream, a);
-  LAUNCH(loop, blocks, THREADS, 0, c->stream, a, !!sim->miscible);
+  run_loop(sim, pack_places,
+           sim->s.dimension == 1 ? &density_line : &density_stamps[sim->par.kernel]);
 }
 
 static void force(Sim *sim)
 {
-  Cuda *c = cuda_of(sim);
-  CudaError *error = &c->error;
-  const Loop a = loop_of(sim);
-  const unsigned blocks = launch_blocks((size_t)sim->s.n, THREADS);
-  const int solid = !!sim->solid, miscible = !!sim->miscible;
-  const Kernel1 loop = sim->s.dimension == 1 ? force_line[miscible]
-                                             : force_stamps[sim->par.kernel][solid + 2 * miscible];
-  if (solid || sim->s.dimension == 1)
-    LAUNCH(pack_body<1>, blocks, THREADS, 0, c->stream, a);
-  else
-    LAUNCH(pack_body<0>, blocks, THREADS, 0, c->stream, a);
-  LAUNCH(loop, blocks, THREADS, 0, c->stream, a);
+  const int line = sim->s.dimension == 1, solid = !!sim->solid, miscible = !!sim->miscible;
+  run_loop(sim, solid || line ? pack_body<1> : pack_body<0>,
+           line ? &force_line[miscible] : &force_stamps[sim->par.kernel][solid + 2 * miscible]);
 }
 
 static size_t bytes(const Sim *sim)

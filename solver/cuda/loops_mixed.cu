@@ -21,7 +21,7 @@ static __device__ float4 quad_get(const float4 *q) { return __ldg(q); }
 
 static __device__ void place_set(Points p, long i, double x, double y, double z, float h, float w)
 {
-  const float hx = (float)x, hy = (float)y, hz = (float)z;
+  const float hx = __double2float_rn(x), hy = __double2float_rn(y), hz = __double2float_rn(z);
   p.hi[i] = make_float4(hx, hy, hz, h);
   p.lo[i] = make_float4((float)(x - hx), (float)(y - hy), (float)(z - hz), w);
 }
