@@ -21,7 +21,7 @@ static const Opt opts[] = {
   {"end",        'e', OPT_TEXT, NULL, "TIME", "simulated time at which to end; +TIME: after the input's own time", &end},
   {"every",      0,   OPT_REAL, NULL, "s", "simulated time between snapshots (default: 50 of them)", &every},
   {"set",        's', OPT_LIST, NULL, "KEY=VALUE", "one setting, over those of the config; may be repeated", &set},
-  {"device",     0,   OPT_TEXT, "auto", "auto|cpu|cuda[:K]", "where to run: a card (the K-th) or the processor; auto: a card if there is one", &device},
+  {"device",     0,   OPT_TEXT, "auto", "auto|cpu|cuda[:K]", "where to run; auto: a card if there is one", &device},
   {"precision",  0,   OPT_CHOICE, NULL, "mixed|double", "short for --set precision=...", &precision},
   {"restart",    'r', OPT_FLAG, NULL, NULL, "continue from DIR/checkpoint.h5 if there is one", &restart},
   {"max-wall",   0,   OPT_REAL, NULL, "s", "stop with a checkpoint after this wall-clock time (exit 3)", &max_wall},

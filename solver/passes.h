@@ -341,8 +341,8 @@ HD void pass_still(const State *s, const Step *k, long i)
   s->rhoa[i] = s->rho[i], s->ha[i] = s->h[i];
 }
 
-/* local: EOS, yield and damage of the present state, without advancing it; the rates of S and of
- * the cracks. */
+/* local: EOS, yield and damage of the present state, without advancing it; the rates of S (when
+ * they are kept) and of the cracks. */
 HD void pass_local(const State *s, const Step *k, long i)
 {
   double mu = k->strength ? s->material[s->mat[i]].mu : 0;
@@ -350,7 +350,9 @@ HD void pass_local(const State *s, const Step *k, long i)
   passes_eos(s, i, s->u[i]);
   if (mu > 0) passes_yield(s, i, 0);
   if (k->damage) passes_damage(s, i, 0);
-  passes_keep_stress(&s->ds[6 * i], passes_jaumann(passes_stress(&s->s[6 * i]), &s->g[9 * i], mu));
+  if (s->ds)
+    passes_keep_stress(&s->ds[6 * i],
+                       passes_jaumann(passes_stress(&s->s[6 * i]), &s->g[9 * i], mu));
   passes_pack(s, k, i, mu > 0, 0);
 }
 

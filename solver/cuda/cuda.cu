@@ -39,8 +39,9 @@ static int cuda_cards(void)
 static size_t wanted(Sim *sim, const Parts *p)
 {
   const size_t rest = (size_t)1 << 27;
-  return cuda_state_bytes(sim, p) + cuda_order_bytes(sim) + cuda_tree_bytes(sim) +
-         cuda_lists_bytes(sim) + cuda_loops_bytes(sim) + cuda_gravity_bytes(sim) + rest;
+  return cuda_state_bytes(sim, p) + cuda_store_bytes(sim) + cuda_order_bytes(sim) +
+         cuda_tree_bytes(sim) + cuda_lists_bytes(sim) + cuda_loops_bytes(sim) +
+         cuda_gravity_bytes(sim) + rest;
 }
 
 /* The card by name, and whether the particles fit. */

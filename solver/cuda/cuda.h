@@ -33,7 +33,7 @@ typedef struct {
 /* Positions of all particles from the root's origin in code units: x = hi.xyz + lo.xyz. */
 typedef struct {
   float4 *hi; /* [n] w: h */
-  float4 *lo; /* [n] w: m (points x), volume m/rhoa (points y) */
+  float4 *lo; /* [n] w: m */
 } Points;
 
 /* A node's moments in code units from the root's origin: com = hi + lo; q = sum m (3 r_a r_b - r^2
@@ -72,7 +72,7 @@ typedef struct {
   cudaStream_t stream;
   Units unit;
   Root *root;
-  Points x, y; /* loop B, gravity and search at x with h; loop A at y with ha */
+  Points x;
   DeviceTree tree;
   Lists lists;
   PairRun run;
@@ -114,6 +114,7 @@ enum { CUDA_COLUMNS = 128 };
 int cuda_columns(Sim *sim, CudaColumn column[CUDA_COLUMNS], int *all);
 
 /* cuda_store, cuda_fetch: see struct backend. cuda_copy: waits. */
+size_t cuda_store_bytes(const Sim *sim);
 int cuda_store_open(Sim *sim, Err *err);
 int cuda_store(Sim *sim, Parts *parts, Err *err);
 int cuda_fetch(Sim *sim, Parts *parts, Err *err);
@@ -133,7 +134,7 @@ void cuda_clock_close(Sim *sim);
  * and the reductions waits for the device. */
 size_t cuda_order_bytes(const Sim *sim);
 int cuda_order_open(Sim *sim, Err *err);
-int cuda_order(Sim *sim, Err *err); /* root, keys, sort, permutation; then points x and y */
+int cuda_order(Sim *sim, Err *err); /* root, keys, sort, permutation; then points x */
 void cuda_order_close(Sim *sim);
 size_t cuda_tree_bytes(const Sim *sim);
 int cuda_tree_open(Sim *sim, Err *err);

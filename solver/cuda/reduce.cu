@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Reductions over all particles: at most BLOCKS blocks of THREADS threads take the particles in
  * turns, a binary tree in shared memory joins the threads of a block, and one block more joins the
- * blocks. Grid and trees depend on the number of particles alone, so sums have the same bits. The results of a step are
- * one small struct on the device, copied to the host at once. */
+ * blocks. Grid and trees depend on the number of particles alone, so sums have the same bits. The
+ * results of a step are one small struct on the device, copied to the host at once. */
 #include "cuda.h"
 extern "C" {
 #include "../reduce.h"

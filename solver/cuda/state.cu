@@ -29,10 +29,18 @@ void cuda_free(void *at)
   if (at) cudaFree(at);
 }
 
-/* Arrays of the state that no pass of this run reads or writes: what only tools know. */
-static int idle(const char *name)
+/* Arrays of the state that no pass of this run reads or writes. */
+static int idle(const Sim *sim, const char *name)
 {
-  return strcmp(name, "frag") == 0 || strcmp(name, "clump") == 0;
+  if (strcmp(name, "frag") == 0 || strcmp(name, "clump") == 0) return 1; /* what only tools know */
+  if (strcmp(name, "delta") == 0) return sim->par.density == PARAM_CONTINUITY;
+  return strcmp(name, "ds") == 0 && sim->slots == 0;
+}
+
+/* The thresholds that this run looks at. */
+static size_t flaws_of(const Sim *sim, const Parts *p)
+{
+  return sim->solid && sim->par.damage ? (size_t)p->flaws : 0;
 }
 
 /* All columns, there or not; those that move with their particles first. */
@@ -75,8 +83,8 @@ size_t cuda_state_bytes(Sim *sim, const Parts *p)
   int all;
   columns_of(sim, column, &all);
   for (int k = 0; k < all; k++)
-    if (!idle(column[k].name)) sum += rounded(n * (size_t)(column[k].width * column[k].size));
-  return sum + n * 4 * sizeof(float4) + (size_t)p->flaws * sizeof(double);
+    if (!idle(sim, column[k].name)) sum += rounded(n * (size_t)(column[k].width * column[k].size));
+  return sum + n * 2 * sizeof(float4) + flaws_of(sim, p) * sizeof(double);
 }
 
 static int alloc(Sim *sim, const Parts *p, Err *err)
@@ -87,13 +95,11 @@ static int alloc(Sim *sim, const Parts *p, Err *err)
   int all, bad = 0;
   columns_of(sim, column, &all);
   for (int k = 0; k < all && !bad; k++)
-    if (!idle(column[k].name))
+    if (!idle(sim, column[k].name))
       bad = cuda_alloc(sim, column[k].array, n * (size_t)(column[k].width * column[k].size), err);
   return bad || cuda_alloc(sim, (void **)&c->x.hi, n * sizeof(float4), err) ||
          cuda_alloc(sim, (void **)&c->x.lo, n * sizeof(float4), err) ||
-         cuda_alloc(sim, (void **)&c->y.hi, n * sizeof(float4), err) ||
-         cuda_alloc(sim, (void **)&c->y.lo, n * sizeof(float4), err) ||
-         cuda_alloc(sim, (void **)&c->flaw, (size_t)p->flaws * sizeof(double), err) ||
+         cuda_alloc(sim, (void **)&c->flaw, flaws_of(sim, p) * sizeof(double), err) ||
          cuda_alloc(sim, (void **)&c->material, (size_t)sim->materials * sizeof(Material), err);
 }
 
@@ -126,8 +132,7 @@ static int fill(Sim *sim, const Parts *p, Err *err)
 #undef STATE_FILL
   if (fill_rows(sim, p, err)) return -1;
   if (p->nflaw && cuda_copy(sim, s->nflaw, p->nflaw, n * sizeof *p->nflaw, err)) return -1;
-  if (p->flaws && cuda_copy(sim, c->flaw, p->flaw, (size_t)p->flaws * sizeof *p->flaw, err))
-    return -1;
+  if (cuda_copy(sim, c->flaw, p->flaw, flaws_of(sim, p) * sizeof *p->flaw, err)) return -1;
   s->flaw = c->flaw, s->material = c->material;
   return cuda_copy(sim, c->material, sim->material, (size_t)sim->materials * sizeof(Material), err);
 }
@@ -172,6 +177,6 @@ void cuda_state_close(Sim *sim)
   int all;
   columns_of(sim, column, &all);
   for (int k = 0; k < all; k++) cuda_free(*column[k].array);
-  cuda_free(c->x.hi), cuda_free(c->x.lo), cuda_free(c->y.hi), cuda_free(c->y.lo);
+  cuda_free(c->x.hi), cuda_free(c->x.lo);
   cuda_free(c->flaw), cuda_free(c->material);
 }

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The state on its way to the host. Kernels put the arrays into row order in a staging buffer on the
- * card, in the order of the run; from there a second stream brings them over in pinned pieces while
- * the run goes on. When the buffer is too small for all, the run waits for all but the last of
- * it. */
+/* The state on its way to the host. Kernels put the arrays into row order in a staging buffer on
+ * the card; from there a second stream brings them over in pinned pieces while the run goes on.
+ * When the buffer is too small for all, the run waits for all but the last of it. */
 #include "cuda.h"
 
 enum { PIECE = 1 << 24 }; /* bytes of pinned memory */
@@ -100,21 +99,30 @@ int cuda_store(Sim *sim, Parts *p, Err *err)
   return launch_failed(error, err);
 }
 
+/* The widest array. */
+size_t cuda_store_bytes(const Sim *sim)
+{
+  size_t widest = 0;
+#define STORE_WIDEST(TYPE, MEMBER, WIDTH, ...)                                                     \
+  widest = widest > (WIDTH) * sizeof(TYPE) ? widest : (WIDTH) * sizeof(TYPE);
+  ALL_FIELDS(STORE_WIDEST)
+#undef STORE_WIDEST
+  return (size_t)sim->s.n * widest;
+}
+
 /* The staging buffer holds all that files have, or when memory is short the widest array. */
 int cuda_store_open(Sim *sim, Err *err)
 {
   Cuda *c = cuda_of(sim);
   CudaError *error = &c->error;
-  size_t n = (size_t)sim->s.n, available = 0, total = 0, all = 0, widest = 0;
+  size_t n = (size_t)sim->s.n, available = 0, total = 0, all = 0;
   if (!(c->store = (struct CudaStore *)calloc(1, sizeof *c->store)))
     return err_set(err, "not enough memory");
-#define STORE_SIZE(TYPE, MEMBER, WIDTH, ...)                                                       \
-  all += n * (WIDTH) * sizeof(TYPE) + 256;                                                         \
-  widest = widest > (WIDTH) * sizeof(TYPE) ? widest : (WIDTH) * sizeof(TYPE);
+#define STORE_SIZE(TYPE, MEMBER, WIDTH, ...) all += n * (WIDTH) * sizeof(TYPE) + 256;
   ALL_FIELDS(STORE_SIZE)
 #undef STORE_SIZE
   CHECK(cudaMemGetInfo(&available, &total));
-  c->store->room = all < available / 4 ? all : n * widest;
+  c->store->room = all < available / 4 ? all : cuda_store_bytes(sim);
   CHECK(cudaStreamCreateWithFlags(&c->store->stream, cudaStreamNonBlocking));
   CHECK(cudaEventCreateWithFlags(&c->store->ready, cudaEventDisableTiming));
   CHECK(cudaMallocHost((void **)&c->store->piece, PIECE));

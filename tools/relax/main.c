@@ -34,7 +34,7 @@ static const Opt opts[] = {
   {"radial",       0,   OPT_FLAG,   NULL,   NULL,   "damp the radial velocity only", &o.radial},
   {"max-time",     't', OPT_REAL,   NULL,   "s",    "longest damped run (default: 12 free-fall times)", &o.max_time},
   {"proof",        0,   OPT_REAL,   NULL,   "s",    "length of the proof run (default: 1 free-fall time; 0: none)", &o.proof},
-  {"device",       0,   OPT_TEXT, "auto", "auto|cpu|cuda[:K]", "where to run: a card (the K-th) or the processor; auto: a card if there is one", &o.device},
+  {"device",       0,   OPT_TEXT, "auto", "auto|cpu|cuda[:K]", "where to run; auto: a card if there is one", &o.device},
   {"set",          's', OPT_LIST,   NULL,   "KEY=VALUE", "a setting of the solver, e.g. kernel=cubic_spline", &o.set},
   {NULL, 0, OPT_FLAG, NULL, NULL, NULL, NULL},
 };
