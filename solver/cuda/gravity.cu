@@ -211,7 +211,7 @@ static void tree(Sim *sim, const Walk &w, int single)
   CudaGravity *g = c->gravity;
   CudaError *error = &c->error;
   const unsigned all = launch_blocks((size_t)w.n, RECOIL_THREADS),
-                 parts = all < RECOIL_BLOCKS ? all : RECOIL_BLOCKS;
+                 parts = all < (unsigned)RECOIL_BLOCKS ? all : (unsigned)RECOIL_BLOCKS;
   LAUNCH(single ? walk_tree<float> : walk_tree<double>,
          launch_blocks((size_t)w.n, (unsigned)w.chunk), 32, 0, c->stream, w);
   LAUNCH(recoil_parts<RecoilForce>, parts, RECOIL_THREADS, 0, c->stream, w, g->recoil, g->force);
