@@ -45,7 +45,7 @@ cudart := $(firstword $(wildcard $(addsuffix /libcudart_static.a,$(toolkit)/lib6
 cudalibs := $(cudart) -ldl -lrt -Wl,--as-needed -lstdc++
 codes := $(if $(filter all,$(ARCH)),$(foreach a,75 80 86 89 90,-gencode arch=compute_$a$(comma)code=sm_$a) \
   -gencode arch=compute_90$(comma)code=compute_90,-arch=$(ARCH))
-nvccflags = -std=c++17 -O3 $(codes) $(CUDAMATH) -Xcompiler -Wall,-Wextra $(NVCCFLAGS)
+nvccflags = -std=c++17 -O3 $(codes) $(CUDAMATH) -Xcompiler -Wall,-Wextra,-fopenmp $(NVCCFLAGS)
 endif
 
 tools := $(notdir $(patsubst %/,%,$(wildcard tools/*/)))
@@ -55,6 +55,7 @@ c_tests := $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))
 cuda_tests := $(filter test_cuda%,$(c_tests))
 tests := $(c_tests) $(cu_tests)
 benches := $(patsubst bench/%.c,%,$(wildcard bench/*.c))
+gpu_benches := $(patsubst bench/%.cu,%,$(wildcard bench/*.cu))
 lib_o := $(patsubst %.c,$B/%.o,$(wildcard lib/*.c))
 solver_c := $(filter-out solver/main.c $(if $(NVCC),solver/nocuda/%),$(wildcard solver/*.c solver/*/*.c))
 solver_o := $(solver_c:%.c=$B/%.o) $(if $(NVCC),$(cuda:%.cu=$B/%.o))
@@ -138,6 +139,11 @@ check-gpu: all $(filter-out $B/gpu/tests/test_host_%,$(tests:%=$B/gpu/tests/%))
 bench: all
 	@for b in $(benches:%=$B/bench/%); do $$b || exit 1; done
 
+# The same on a GPU: its passes, then whole steps.
+bench-gpu: all $(gpu_benches:%=$B/bench/%)
+	@for b in $(gpu_benches:%=$B/bench/%); do $$b || exit 1; done
+	@for n in 200000 1000000; do for c in solid hydro; do $B/bench/step $$n $$c cuda || exit 1; done; done
+
 lint: all
 	@tests/lint $B
 
@@ -163,13 +169,13 @@ help:
 	@echo 'make deps       install what the build needs (apt-get)'
 	@echo 'make check      run all tests; make check T=eos runs those that match'
 	@echo 'make check-gpu  the same on a GPU'
-	@echo 'make bench      check, then time, the hot passes'
+	@echo 'make bench      check, then time, the hot passes; make bench-gpu on a GPU'
 	@echo 'make lint       format, lengths, exported names'
 	@echo 'make docs       the generated tables of docs/'
 	@echo 'make install PREFIX=/usr/local'
 	@echo 'make asan=1 check     the same with address and undefined-behaviour sanitizers'
 
 FORCE:
-.PHONY: all check check-gpu check-host bench lint docs deps install clean help FORCE
+.PHONY: all check check-gpu check-host bench bench-gpu lint docs deps install clean help FORCE
 .DELETE_ON_ERROR:
 .SECONDARY:

@@ -3,11 +3,12 @@
 #include <omp.h>
 #include "profile.h"
 
+const char *const profile_names[] = {"order and tree", "neighbour search", "loop A (gradient)",
+                                     "local passes",   "density sum",      "loop B (force)",
+                                     "gravity",        "reductions"};
+
 void profile_print(const Sim *sim, long steps, FILE *to)
 {
-  static const char *const names[TIMERS] = {
-      "order and tree", "neighbour search", "loop A (gradient)", "local passes",
-      "density sum",    "loop B (force)",   "gravity",           "reductions"};
   const int cpu = sim->b == &backend_cpu;
   double per = (cpu ? 1e6 * omp_get_max_threads() : 1e9) /
                ((double)sim->s.n * (steps > 0 ? (double)steps : 1)),
@@ -18,7 +19,7 @@ void profile_print(const Sim *sim, long steps, FILE *to)
     const BackendTimer *b = &sim->timer[t];
     total += b->spent;
     if (b->calls)
-      fprintf(to, "%s\t%ld\t%.3f\t%.3f\n", names[t], b->calls, b->spent, b->spent * per);
+      fprintf(to, "%s\t%ld\t%.3f\t%.3f\n", profile_names[t], b->calls, b->spent, b->spent * per);
   }
   fprintf(to, "all\t\t%.3f\t%.3f\n", total, total * per);
 }

@@ -6,6 +6,9 @@
 #include <stdio.h>
 #include "sim.h"
 
+/* The passes by their timers. */
+extern const char *const profile_names[TIMERS];
+
 /* profile_print: the table of passes: name, calls, seconds, per particle and step microseconds x
  * core (cpu) or ns (a card, of its own clock). */
 void profile_print(const Sim *sim, long steps, FILE *to);
