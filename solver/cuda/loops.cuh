@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The pair loops on the device, in one precision; loops_mixed.cu and loops_double.cu say which
  * (real), how four numbers are packed (Quad) and how a vector is kept such that differences of two
- * are exact enough (Place, place_*). One thread sums over the list of one particle; lists
- * of more than CROWD entries are left to a second kernel in which a warp shares them, so that a few
- * very long ones do not hold up all others. What is read of a neighbour is packed once per loop into 16-byte (32-byte) records,
- * in code units.
+ * are exact enough (Place, place_*). One thread sums over the list of one particle; lists of more
+ * than CROWD entries are left to a second kernel in which a warp shares them, so that a few very
+ * long ones do not hold up all others. What is read of a neighbour is packed once per loop into
+ * 16-byte (32-byte) records, in code units.
  *
  * Kernel, solid and miscible are literals; a line (1D) has one general instance of each loop. */
 #include "loops.h"
