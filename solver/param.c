@@ -29,7 +29,7 @@ static const CfgRow top[] = {
   {"integrator", CFG_CHOICE, AT(integrator), integrator_words + 1, "leapfrog", ANY, "time integration"},
   {"kernel", CFG_CHOICE, AT(kernel), kernel_words + 1, "wendland_c2", ANY, "SPH kernel"},
   {"precision", CFG_CHOICE, AT(precision), "mixed|double", "mixed", ANY,
-   "mixed: on the CPU gravity interactions in single precision relative to the group, the rest in double"},
+   "mixed: pair terms in single precision between exact differences (on the CPU gravity's only), the rest in double"},
   {"density", CFG_CHOICE, AT(density), "continuity|sum|miscible", "continuity", ANY,
    "continuity equation, kernel sum, or kernel sum of the number density"},
   {"density_floor", CFG_REAL, AT(density_floor), "1", "1", 0, 1e6,

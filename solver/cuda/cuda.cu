@@ -35,21 +35,21 @@ static int cuda_cards(void)
   return cudaGetDeviceCount(&n) == cudaSuccess ? n : 0;
 }
 
-/* Bytes that the run takes, and a little for what is not counted. */
+/* Bytes that the run takes. */
 static size_t wanted(Sim *sim, const Parts *p)
 {
-  const size_t rest = (size_t)1 << 27;
   return cuda_state_bytes(sim, p) + cuda_store_bytes(sim) + cuda_order_bytes(sim) +
          cuda_tree_bytes(sim) + cuda_lists_bytes(sim) + cuda_loops_bytes(sim) +
-         cuda_gravity_bytes(sim) + rest;
+         cuda_gravity_bytes(sim);
 }
 
-/* The card by name, and whether the particles fit. */
+/* The card by name, and whether the particles fit; a little is left for what is not counted. */
 static int look_at_card(Sim *sim, const Parts *p, Err *err)
 {
+  const size_t rest = (size_t)1 << 27, need = wanted(sim, p), each = need / (size_t)p->n + 1;
   CudaError *error = &cuda_of(sim)->error;
   cudaDeviceProp card;
-  size_t available = 0, total = 0, need = wanted(sim, p), each = need / (size_t)p->n + 1;
+  size_t available = 0, total = 0;
   int driver = 0;
   memset(&card, 0, sizeof card);
   CHECK(cudaGetDeviceProperties(&card, sim->card));
@@ -60,6 +60,7 @@ static int look_at_card(Sim *sim, const Parts *p, Err *err)
            "cuda:%d, %.100s (compute %d.%d, driver %d.%d), %.4g of %.4g GB, %zu B a particle",
            sim->card, card.name, card.major, card.minor, driver / 1000, driver % 1000 / 10,
            1e-9 * (double)need, 1e-9 * (double)total, each);
+  available = available > rest ? available - rest : 0;
   if (need <= available) return 0;
   return err_set(err,
                  "%ld particles do not fit on card %d: they need %.4g GB (%zu B each), %.4g GB are "
