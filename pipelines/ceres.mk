@@ -6,8 +6,8 @@
 #   make -f pipelines/ceres.mk N=200000 THETA=0.5                  as in the paper
 # Killed at any point, the same command goes on. A result's path says what it is: OUT/N3000-s1/a48-v1.7/report.txt.
 
-# particles in both bodies together
-N = 3000
+# particles in both bodies together: the paper's number where there is a GPU
+N = $(if $(gpu),200000,3000)
 # impact angle [degrees], 0 is head-on
 ANGLE = 48
 # impact speed [mutual escape speed at contact]
@@ -37,6 +37,7 @@ OUT = out/ceres
 
 this := $(lastword $(MAKEFILE_LIST))
 here := $(dir $(this))
+include $(here)common.mk
 bodies := $(OUT)/N$(N)-s$(SEED)
 runs := $(foreach a,$(ANGLE),$(foreach v,$(SPEED),$(bodies)/a$a-v$v))
 pictures := cut.png damage.png end-1.png $(if $(shell command -v gnuplot),conserved.png)
@@ -44,7 +45,6 @@ analysis := dumps.tsv frames.txt before.tsv after.tsv fragments.h5 fragments.tsv
 
 all: $(foreach r,$(runs),$(addprefix $r/,$(pictures) checked))
 check: $(runs:%=%/checked)
-include $(here)common.mk
 
 # Both bodies have the mass of Ceres; their particles have the same volume: (0.7/2700 + 0.3/917) to 1/2700 m^3/kg.
 share = $(shell awk 'BEGIN { print int($1*$(N) + 0.5) }')

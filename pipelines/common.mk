@@ -5,6 +5,7 @@
 
 SHELL = bash
 .SHELLFLAGS = -e -o pipefail -c
+.DEFAULT_GOAL = all
 .DELETE_ON_ERROR:
 .SECONDARY:
 .SUFFIXES:
@@ -23,6 +24,11 @@ BIN ?= $(abspath $(root)/../../bin)
 programs :=
 endif
 export PATH := $(BIN):$(PATH)
+
+# Not empty where a driver shows a GPU and the solver can use it (one that is to be built: where nvcc is).
+nvcc = $(firstword $(shell command -v nvcc) $(wildcard $(CUDA_HOME:%=%/bin/nvcc) /usr/local/cuda/bin/nvcc))
+knows = $(if $(wildcard $(BIN)/solver),$(shell $(BIN)/solver --help | grep -o 'auto|cpu|cuda'),$(nvcc))
+gpu := $(and $(shell nvidia-smi -L 2>/dev/null | grep '^GPU'),$(knows))
 
 # With -j K each job gets its share of the cores. Threads that wait sleep: on a machine with other work, spinning ones hold it up.
 jobs = $(or $(patsubst -j%,%,$(filter -j%,$(MAKEFLAGS))),1)

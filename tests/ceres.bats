@@ -131,6 +131,17 @@ analysis='clumps fof gnuplot render '
   [ -s "$run_dir/report.txt" ] && [ ! -e "$run_dir/checked" ]
 }
 
+@test "many particles where a GPU is, and a solver that can use it" {
+  mock
+  first() { PATH=$mock:$PATH make -n -f pipelines/ceres.mk BIN="$mock" OUT="$OUT" | grep -o -m1 "N[0-9]*-s1"; }
+  [ "$(first)" = N3000-s1 ]
+  printf '#!/bin/bash\necho "--device auto|cpu"\n' >"$mock/solver"
+  printf '#!/bin/bash\necho "GPU 0: a card"\n' >"$mock/nvidia-smi" && chmod +x "$mock/nvidia-smi"
+  [ "$(first)" = N3000-s1 ] # the solver knows only the CPU
+  printf '#!/bin/bash\necho "--device auto|cpu|cuda[:K]"\n' >"$mock/solver"
+  [ "$(first)" = N200000-s1 ]
+}
+
 @test "an installed copy needs no checkout" {
   mock
   prefix=$BATS_TEST_TMPDIR/prefix
