@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <omp.h>
+#include "../../lib/hilbert.h"
 #include "../recoil.h"
 #include "cpu.h"
 
@@ -122,7 +123,7 @@ typedef struct {
   size_t size; /* bytes a particle */
 } Column;
 
-enum { COLUMNS = 128, SHIFT_STEPS = 4 };
+enum { COLUMNS = 128 };
 
 static int columns_of(const Sim *sim, Column column[COLUMNS])
 {
@@ -170,7 +171,7 @@ static int cpu_search(Sim *sim, Err *err)
   backend_begin(sim, TIMER_ORDER);
   /* Errors of the tree that stay the same from step to step pull a body as a whole: another cube
    * every few steps keeps them from adding up. */
-  c->tree.shift = (uint64_t)(sim->step / SHIFT_STEPS) + 1;
+  c->tree.shift = hilbert_shift(sim->step);
   bad = tree_order(s->n, s->x, s->id, c->tree.shift, c->order, err);
   if (!bad) reorder_all(sim);
   bad = bad || tree_build(&c->tree, s->n, s->x, s->m, s->h, err);
