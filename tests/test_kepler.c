@@ -102,6 +102,16 @@ static void tolerance(void **state)
   assert_true(fine.energy < .01 * coarse.energy);
 }
 
+/* Each of three runs has half the step of the one before. */
+static void apsis_of_second_order(const Drift d[3])
+{
+  for (int k = 0; k < 2; k++) {
+    double order = log(d[k].apsis / d[k + 1].apsis) / log(2);
+    print_message("order of the apsis %.3f\n", order);
+    assert_true(fabs(order - 2) < .05);
+  }
+}
+
 /* Fixed steps: the apsis turns as dt^2; energy comes back after whole orbits; L is kept to
  * rounding. */
 static void leapfrog(void **state)
@@ -113,11 +123,7 @@ static void leapfrog(void **state)
     d[k] = orbit(.5, 10, "integrator=leapfrog", "step.error=1", dt, "gravity.method=direct");
     assert_true(d[k].momentum < 1e-13 && d[k].angular < 1e-12);
   }
-  for (int k = 0; k < 2; k++) {
-    double order = log(d[k].apsis / d[k + 1].apsis) / log(2);
-    print_message("order of the apsis %.3f\n", order);
-    assert_true(fabs(order - 2) < .05);
-  }
+  apsis_of_second_order(d);
   assert_true(d[2].apsis < 2e-4 && d[2].energy < 1e-6);
 }
 
@@ -132,11 +138,7 @@ static void every_fourth_step(void **state)
     d[k] = orbit(.5, 10, "integrator=leapfrog", "gravity.every=4", dt, "gravity.method=direct");
     assert_true(d[k].momentum < 1e-13 && d[k].angular < 1e-12);
   }
-  for (int k = 0; k < 2; k++) {
-    double order = log(d[k].apsis / d[k + 1].apsis) / log(2);
-    print_message("order of the apsis %.3f\n", order);
-    assert_true(fabs(order - 2) < .05);
-  }
+  apsis_of_second_order(d);
   Drift coarse = orbit(.5, 10, "integrator=leapfrog", "step.error=1", 2 * LAB_PI / 500,
                        "gravity.method=direct");
   assert_true(d[0].apsis < 1.05 * coarse.apsis && d[0].energy < 1e-5);
