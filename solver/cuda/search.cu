@@ -328,6 +328,7 @@ static __device__ __forceinline__ void pop(const Search &a, Desk *w, Piece *p)
   const unsigned lead = inner ? found & ((inner & (0u - inner)) - 1) : found;
   const unsigned push = found & ~lead;
   p->stacked += __popc(push) - opened;
+  __syncwarp(); /* all have read the stack */
   if (push >> lane & 1)
     w->stack[p->stacked - 1 - rank_in(push)] =
         link.y ? make_int2(link.x, link.y) : make_int2(node, 0);
