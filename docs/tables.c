@@ -9,7 +9,7 @@
 #define FIELD(TYPE, MEMBER, WIDTH, DATASET, UNIT, MADE_BY, MEANING)                                \
   field(DATASET, WIDTH, #TYPE, UNIT, MADE_BY, MEANING);
 #define ROW(MEMBER, UNIT, VALUE, MIN, MAX, MEANING) row(#MEMBER, UNIT, VALUE, MIN, MAX, MEANING);
-#define STRENGTH_ROW(KEY, MEMBER, UNIT, VALUE, MIN, MAX, MEANING)                                  \
+#define OWN_ROW(KEY, MEMBER, UNIT, VALUE, MIN, MAX, MEANING)                                  \
   row(#KEY, UNIT, VALUE, MIN, MAX, MEANING);
 #define EOS_TABLE(CAPITAL, NAME)    law("eos", #NAME), EOS_##CAPITAL##_ROWS(ROW);
 #define YIELD_TABLE(CAPITAL, NAME)  law("strength", #NAME), YIELD_##CAPITAL##_ROWS(ROW);
@@ -57,9 +57,12 @@ static void schema(void)
 static void laws(void)
 {
   EOS_LAWS(EOS_TABLE)
+  printf("\n### eos: with every law\n");
+  table();
+  MATERIAL_EOS_ROWS(OWN_ROW)
   printf("\n### strength: with every law\n");
   table();
-  MATERIAL_STRENGTH_ROWS(STRENGTH_ROW)
+  MATERIAL_STRENGTH_ROWS(OWN_ROW)
   YIELD_LAWS(YIELD_TABLE)
   DAMAGE_LAWS(DAMAGE_TABLE)
 }

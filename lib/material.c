@@ -40,9 +40,10 @@ static const Law EOS[] = {EOS_LAWS(EOS_ENTRY)};
 static const Law YIELD[] = {{NULL, 0}, YIELD_LAWS(YIELD_ENTRY)};
 static const Law DAMAGE[] = {{NULL, 0}, DAMAGE_LAWS(DAMAGE_ENTRY)};
 
-#define STRENGTH_ROW(KEY, MEMBER, UNIT, VALUE, MIN, MAX, MEANING)                                  \
+#define OWN_ROW(KEY, MEMBER, UNIT, VALUE, MIN, MAX, MEANING)                                       \
   {#KEY, CFG_REAL, offsetof(Material, MEMBER), UNIT, VALUE, MIN, MAX, MEANING},
-static const CfgRow STRENGTH[] = {MATERIAL_STRENGTH_ROWS(STRENGTH_ROW)};
+static const CfgRow EOS_OWN[] = {MATERIAL_EOS_ROWS(OWN_ROW)};
+static const CfgRow STRENGTH[] = {MATERIAL_STRENGTH_ROWS(OWN_ROW)};
 
 /* A group of the file: its name, the words of `form`, the laws, where form and parameters go. */
 typedef struct {
@@ -124,7 +125,7 @@ static int root_read(const config_setting_t *root, Material *m, const char *labe
 {
   const Group parts[] = {
       {"eos", EOS_WORDS, EOS, (size_t)((char *)&m->eos.form - (char *)m),
-       (size_t)((char *)&m->eos.tillotson - (char *)m), NULL, 0},
+       (size_t)((char *)&m->eos.tillotson - (char *)m), EOS_OWN, N(EOS_OWN)},
       {"strength", YIELD_WORDS, YIELD, (size_t)((char *)&m->yield.form - (char *)m),
        (size_t)((char *)&m->yield.von_mises - (char *)m), STRENGTH, N(STRENGTH)},
       {"damage", DAMAGE_WORDS, DAMAGE, (size_t)((char *)&m->damage.form - (char *)m),

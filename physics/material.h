@@ -8,9 +8,11 @@
 #include "yield.h"
 #include "damage.h"
 
-/* What the group `strength` holds besides its law:
+/* What the groups `eos` and `strength` hold besides their laws:
  * X(key, member, SI unit, default, min, max, meaning). */
 /* clang-format off */
+#define MATERIAL_EOS_ROWS(X) \
+  X(heat_capacity, heat, "J/K/kg", "0", 0, 1e6, "at constant volume: T = (u - u_cold(rho))/heat_capacity; 0: no temperature")
 #define MATERIAL_STRENGTH_ROWS(X) \
   X(shear_modulus, mu,   "Pa",   NULL, 0, 1e30, "shear modulus") \
   X(melt_energy,   melt, "J/kg", "0",  0, 1e30, "specific energy of the melt; 0: strength does not depend on u")
@@ -18,6 +20,7 @@
 
 typedef struct {
   Eos eos;       /* equation of state */
+  double heat;   /* heat capacity at constant volume [J/K/kg]; 0: unknown */
   double mu;     /* shear modulus [Pa]; 0: a fluid, no deviatoric stress */
   Yield yield;   /* limit of the deviatoric stress */
   Damage damage; /* brittle fragmentation */

@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The isentrope is integrated over ln rho, where du = p/rho dln(rho). */
+#include <math.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_odeiv2.h>
+#include "thermal.h"
+
+static const double EXACT = 1e-12, REFERENCE = 298.15; /* K */
+
+static int slope(double log_rho, const double u[], double du[], void *eos)
+{
+  double rho = exp(log_rho);
+  du[0] = eos_eval(eos, rho, u[0], 0).p / rho;
+  return isfinite(du[0]) ? GSL_SUCCESS : GSL_EBADFUNC;
+}
+
+double thermal_isentrope(const Eos *eos, double rho1, double u1, double rho)
+{
+  double x = log(rho1), end = log(rho), c = eos_eval(eos, rho, u1, 0).cs;
+  gsl_odeiv2_system system = {slope, NULL, 1, (void *)eos};
+  gsl_odeiv2_driver *driver;
+  int status;
+  if (rho == rho1) return u1;
+  if (!(rho > 0 && rho1 > 0 && isfinite(u1) && isfinite(c))) return NAN;
+  gsl_set_error_handler_off(); /* statuses are looked at */
+  driver = gsl_odeiv2_driver_alloc_y_new(&system, gsl_odeiv2_step_rk8pd, (end - x) / 4,
+                                         EXACT * (c * c + fabs(u1)), EXACT);
+  if (!driver) return NAN;
+  status = gsl_odeiv2_driver_apply(driver, &x, end, &u1);
+  gsl_odeiv2_driver_free(driver);
+  return status == GSL_SUCCESS ? u1 : NAN;
+}
+
+double thermal_cold(const Eos *eos, double rho)
+{
+  double rho0 = eos_rho0(eos);
+  return rho0 > 0 ? thermal_isentrope(eos, rho0, 0, rho) : 0;
+}
+
+double thermal_temperature(const Material *m, double rho, double u)
+{
+  return m->heat > 0 ? (u - thermal_cold(&m->eos, rho)) / m->heat : NAN;
+}
+
+double thermal_energy(const Material *m, double rho, double t)
+{
+  return m->heat > 0 ? thermal_cold(&m->eos, rho) + m->heat * t : NAN;
+}
+
+double thermal_entropy(const Material *m, double rho, double u)
+{
+  double rho0 = eos_rho0(&m->eos);
+  if (!(m->heat > 0 && rho0 > 0)) return NAN;
+  u = thermal_isentrope(&m->eos, rho, u, rho0);
+  return m->heat * log(fmax(u, 0) / m->heat / REFERENCE);
+}
+
+double thermal_at_entropy(const Material *m, double s)
+{
+  return m->heat > 0 && eos_rho0(&m->eos) > 0 ? m->heat * REFERENCE * exp(s / m->heat) : NAN;
+}
