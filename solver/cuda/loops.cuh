@@ -37,12 +37,18 @@ typedef struct {
 
 static __device__ long self_of(void) { return (long)blockIdx.x * blockDim.x + threadIdx.x; }
 
-static __device__ uint32_t neighbour(const Loop &a, long i, int k)
+/* The list of particle i; its entry k. */
+static __device__ const uint32_t *list_of(const Loop &a, long i)
 {
-  return __ldg(a.list + a.start[i / CUDA_GROUP] + (int64_t)k * CUDA_GROUP + i % CUDA_GROUP);
+  return a.list + a.start[i / CUDA_GROUP] + i % CUDA_GROUP;
 }
 
-/* Records for loop A: y with ha, v with the volume. */
+static __device__ long neighbour(const uint32_t *list, int k)
+{
+  return __ldg(list + (int64_t)k * CUDA_GROUP);
+}
+
+/* Records for loop A: y with ha, v with the volume; they have no w. */
 static __global__ void pack_flow(Loop a)
 {
   long i = self_of();
@@ -50,9 +56,9 @@ static __global__ void pack_flow(Loop a)
   const double il = 1 / a.unit.length, iv = 1 / a.unit.speed, *y = &s.y[3 * i], *v = &s.v[3 * i];
   if (i >= s.n) return;
   place_set(a.r.x, i, (y[0] - a.root->origin[0]) * il, (y[1] - a.root->origin[1]) * il,
-            (y[2] - a.root->origin[2]) * il, (real)(s.ha[i] * il),
-            (real)(s.m[i] / s.rhoa[i] * a.rho / a.unit.mass));
-  place_set(a.r.v, i, v[0] * iv, v[1] * iv, v[2] * iv, 0, 0);
+            (y[2] - a.root->origin[2]) * il, (real)(s.ha[i] * il), 0);
+  place_set(a.r.v, i, v[0] * iv, v[1] * iv, v[2] * iv,
+            (real)(s.m[i] / s.rhoa[i] * a.rho / a.unit.mass), 0);
 }
 
 /* Records for loop B: x with h and m; v, rho | cs, signal, p, dxx | the rest of d. */
@@ -65,11 +71,11 @@ template <int solid> static __global__ void pack_body(Loop a)
   if (i >= s.n) return;
   place_set(a.r.x, i, (x[0] - a.root->origin[0]) * il, (x[1] - a.root->origin[1]) * il,
             (x[2] - a.root->origin[2]) * il, (real)(s.h[i] * il), (real)(s.m[i] / a.unit.mass));
-  a.r.q[0][i] = quad(v[0] * iv, v[1] * iv, v[2] * iv, s.rho[i] / a.rho);
-  a.r.q[1][i] = quad(s.cs[i] * iv, s.cl[i] * iv, s.push[i] * a.push, t[0] * it);
+  quad_set(a.r.q[0], i, v[0] * iv, v[1] * iv, v[2] * iv, s.rho[i] / a.rho);
+  quad_set(a.r.q[1], i, s.cs[i] * iv, s.cl[i] * iv, s.push[i] * a.push, t[0] * it);
   if (!solid) return;
-  a.r.q[2][i] = quad(t[1] * it, t[2] * it, t[3] * it, t[4] * it);
-  a.r.q[3][i] = quad(t[5] * it, t[6] * it, t[7] * it, t[8] * it);
+  quad_set(a.r.q[2], i, t[1] * it, t[2] * it, t[3] * it, t[4] * it);
+  quad_set(a.r.q[3], i, t[5] * it, t[6] * it, t[7] * it, t[8] * it);
 }
 
 template <class T> static __device__ __forceinline__ T from_lane(T x, int k)
@@ -104,12 +110,13 @@ template <int kern, int line, int solid> struct Gradient {
   static __device__ __forceinline__ PairGradient sum(const Loop &a, long i, int from, int step)
   {
     const int n = a.count[i];
+    const uint32_t *list = list_of(a, i);
     real hi, hj, volume, none;
-    const Place xi = place_get(a.r.x, i, &hi, &volume), vi = place_get(a.r.v, i, &none, &none);
+    const Place xi = place_get(a.r.x, i, &hi, &none), vi = place_get(a.r.v, i, &volume, &none);
     PairGradient g = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
     for (int k = from; k < n; k += step) {
-      const long j = neighbour(a, i, k);
-      const Place xj = place_get(a.r.x, j, &hj, &volume), vj = place_get(a.r.v, j, &none, &none);
+      const long j = neighbour(list, k);
+      const Place xj = place_get(a.r.x, j, &hj, &none), vj = place_get(a.r.v, j, &volume, &none);
       const PairGradient o =
           pair_gradient(place_between(xi, xj), place_between(vi, vj), 0.5f * (hi + hj), volume,
                         line ? a.kern : kern, line, solid, &a.run);
@@ -140,12 +147,12 @@ template <int solid> static __device__ PairBody body_get(const Records &r, long 
 {
   PairBody b;
   *at = place_get(r.x, i, &b.h, &b.m);
-  const Quad p = quad_get(r.q[0] + i), q = quad_get(r.q[1] + i);
+  const Quad p = quad_get(r.q[0], i), q = quad_get(r.q[1], i);
   b.vx = p.x, b.vy = p.y, b.vz = p.z, b.rho = p.w;
   b.cs = q.x, b.signal = q.y, b.p = q.z, b.dxx = q.w;
   b.inverse_rho = solid ? 1 / b.rho : 0;
   if (solid) {
-    const Quad u = quad_get(r.q[2] + i), w = quad_get(r.q[3] + i);
+    const Quad u = quad_get(r.q[2], i), w = quad_get(r.q[3], i);
     b.dxy = u.x, b.dxz = u.y, b.dyx = u.z, b.dyy = u.w;
     b.dyz = w.x, b.dzx = w.y, b.dzy = w.z, b.dzz = w.w;
   } else {
@@ -181,11 +188,12 @@ template <int kern, int line, int solid, int miscible> struct Force {
   static __device__ __forceinline__ Forces sum(const Loop &a, long i, int from, int step)
   {
     const int n = a.count[i];
+    const uint32_t *list = list_of(a, i);
     Place xi, xj;
     const PairBody self = body_get<solid>(a.r, i, &xi);
     Forces f = {0, 0, 0, 0, 2 * self.signal, 0};
     for (int k = from; k < n; k += step) {
-      const PairBody other = body_get<solid>(a.r, neighbour(a, i, k), &xj);
+      const PairBody other = body_get<solid>(a.r, neighbour(list, k), &xj);
       const PairForce o = pair_force(place_between(xi, xj), &self, &other, line ? a.kern : kern,
                                      line, solid, miscible, &a.run);
       const Forces one = {o.fx, o.fy, o.fz, o.work, o.signal, o.near};
@@ -228,11 +236,12 @@ template <int kern, int line> struct Densities {
   static __device__ __forceinline__ Density sum(const Loop &a, long i, int from, int step)
   {
     const int n = a.count[i];
+    const uint32_t *list = list_of(a, i);
     real hi, hj, m;
     const Place xi = place_get(a.r.x, i, &hi, &m);
     Density sum = {0, 0};
     for (int k = from; k < n; k += step) {
-      const PairVector r = place_between(xi, place_get(a.r.x, neighbour(a, i, k), &hj, &m));
+      const PairVector r = place_between(xi, place_get(a.r.x, neighbour(list, k), &hj, &m));
       const real w =
           pair_weight(line ? a.kern : kern, line, &a.run, pair_dot(r, r), 0.5f * (hi + hj));
       sum.delta += w, sum.rho += m * w;
@@ -356,16 +365,19 @@ static void force(Sim *sim)
            line ? &force_line[miscible] : &force_stamps[sim->par.kernel][solid + 2 * miscible]);
 }
 
+/* Quads and places come in eights. */
+static size_t room(const Sim *sim) { return ((size_t)sim->s.n + 7) / 8 * 8; }
+
 static size_t bytes(const Sim *sim)
 {
   const size_t quads = sim->solid || sim->s.dimension == 1 ? 4 : 2;
-  return (size_t)sim->s.n * (2 * PLACE_BYTES + quads * sizeof(Quad));
+  return room(sim) * (2 * PLACE_BYTES + quads * sizeof(Quad));
 }
 
 static int loops_open(Sim *sim, Err *err)
 {
   Cuda *c = cuda_of(sim);
-  const size_t n = (size_t)sim->s.n;
+  const size_t n = room(sim);
   const int quads = sim->solid || sim->s.dimension == 1 ? 4 : 2;
   c->loops = (struct CudaLoops *)calloc(1, sizeof *c->loops);
   if (!c->loops) return err_set(err, "not enough memory");

@@ -12,12 +12,12 @@ typedef struct {
 } Place;
 enum { PLACE_BYTES = 2 * sizeof(float4) };
 
-static __device__ float4 quad(double x, double y, double z, double w)
+static __device__ void quad_set(float4 *q, long i, double x, double y, double z, double w)
 {
-  return make_float4((float)x, (float)y, (float)z, (float)w);
+  q[i] = make_float4((float)x, (float)y, (float)z, (float)w);
 }
 
-static __device__ float4 quad_get(const float4 *q) { return __ldg(q); }
+static __device__ float4 quad_get(const float4 *q, long i) { return __ldg(q + i); }
 
 static __device__ void place_set(Points p, long i, double x, double y, double z, float h, float w)
 {
