@@ -107,7 +107,11 @@ static void lab_tree(GravityLab *l)
     hi[k] = {lab_up_to((p->hi[0] - o[0]) * il), lab_up_to((p->hi[1] - o[1]) * il),
              lab_up_to((p->hi[2] - o[2]) * il), lab_up_to(p->hmax * il)};
   }
+  std::vector<char2> span((size_t)l->c.n, make_char2(1, 1)); /* x < y: a leaf begins */
+  for (size_t k = 0; k < n; k++)
+    if (!children[k]) span[(size_t)link[k].z].x = 0;
   DeviceTree *d = &l->cuda.tree;
+  d->span = lab_up(l, span.data(), span.size());
   d->link = lab_up(l, link.data(), n), d->lo = lab_up(l, lo.data(), n),
   d->hi = lab_up(l, hi.data(), n);
   d->com = lab_up(l, com.data(), n), d->pole = lab_up(l, pole.data(), n);
@@ -131,6 +135,7 @@ static GravityLab *lab_new(Cloud c)
   Root root = {{l->host.origin[0], l->host.origin[1], l->host.origin[2]}, l->host.edge};
   l->cuda.root = lab_up(l, &root, 1);
   lab_points(l), lab_tree(l);
+  l->cuda.scratch = lab_up(l, c.x, (size_t)c.n);
   State *s = &l->sim.s;
   const size_t n = (size_t)c.n;
   s->x = lab_up(l, c.x, 3 * n), s->m = lab_up(l, c.m, n), s->h = lab_up(l, c.h, n);
@@ -158,9 +163,9 @@ static void lab_free(GravityLab *l)
 {
   DeviceTree *t = &l->cuda.tree;
   State *s = &l->sim.s;
-  void *all[] = {t->link,   t->lo,        t->hi,        t->com,       t->pole,
-                 t->moment, l->cuda.x.hi, l->cuda.x.lo, l->cuda.root, l->sim.s.pull,
-                 s->x,      s->m,         s->h,         s->acc,       s->phi};
+  void *all[] = {t->link,      t->lo,        t->hi,        t->com,        t->pole,        t->moment,
+                 l->cuda.x.hi, l->cuda.x.lo, l->cuda.root, l->sim.s.pull, s->x,           s->m,
+                 s->h,         s->acc,       s->phi,       t->span,       l->cuda.scratch};
   cuda_gravity_close(&l->sim);
   for (void *p : all) cudaFree(p);
   tree_free(&l->host), cloud_free(&l->c);

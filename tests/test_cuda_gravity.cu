@@ -209,8 +209,33 @@ static __global__ void jumps(const __grid_constant__ Walk w, int *cut)
   if (i < w.n) cut[i] = walk_jumps(w, i);
 }
 
+/* Of a piece of particles: the longest edge of its box. */
+static double box_of(const Cloud *c, long from, long end, double lo[3], double hi[3])
+{
+  double longest = 0;
+  for (int d = 0; d < 3; d++) {
+    lo[d] = INFINITY, hi[d] = -INFINITY;
+    for (long i = from; i < end; i++)
+      lo[d] = fmin(lo[d], c->x[3 * i + d]), hi[d] = fmax(hi[d], c->x[3 * i + d]);
+    longest = fmax(longest, hi[d] - lo[d]);
+  }
+  return longest;
+}
+
+static long particles_in(const Cloud *c, const double lo[3], const double hi[3])
+{
+  long inside = 0;
+  for (long i = 0; i < c->n; i++) {
+    int in = 1;
+    for (int d = 0; d < 3; d++) in &= lo[d] <= c->x[3 * i + d] && c->x[3 * i + d] <= hi[d];
+    inside += in;
+  }
+  return inside;
+}
+
 /* The pieces of a curve through spheres are compact: their boxes are a few h long, and few are cut
- * in more than there must be. Through debris the curve leaps everywhere, and is cut rarely. */
+ * in more than there must be. Those of debris are large, but hold hardly anybody else: a box with a
+ * body in it would be summed with all of its particles. */
 static void pieces_are_compact(void **state)
 {
   (void)state;
@@ -224,22 +249,46 @@ static void pieces_are_compact(void **state)
     LAUNCH(jumps, launch_blocks((size_t)n, 128), 128, 0, 0, w, device);
     lab_down(l, cut.data(), device, (size_t)n);
     cudaFree(device);
-    long pieces = 0, wide = 0, sphere = 0;
+    long pieces = 0, wide = 0, others = 0;
     for (long from = 0, end; from < n; from = end) {
-      double longest = 0;
+      double lo[3], hi[3];
       for (end = from + 1; end < n && end % 32 && !cut[(size_t)end - 1];) end++;
-      for (int d = 0; d < 3; d++) {
-        double lo = INFINITY, hi = -INFINITY;
-        for (long i = from; i < end; i++)
-          lo = fmin(lo, l->c.x[3 * i + d]), hi = fmax(hi, l->c.x[3 * i + d]);
-        longest = fmax(longest, hi - lo);
-      }
-      pieces++, sphere += l->c.id[from] < n / 2 || !debris;
-      wide += longest > 4 * l->c.h[0] && (l->c.id[from] < n / 2 || !debris);
+      pieces++;
+      if (!(box_of(&l->c, from, end, lo, hi) > 4 * l->c.h[0])) continue;
+      wide++, others += particles_in(&l->c, lo, hi) - (end - from);
     }
-    if (!(wide <= (debris ? 0.025 : 0) * (double)sphere &&
-          pieces < (debris ? 2.5 : 1.25) * (double)n / 32))
-      fail_msg("debris %d: %ld of %ld wide, %ld pieces of %ld", debris, wide, sphere, pieces, n);
+    if (!(wide <= (debris ? n / 2 : 0) && 4 * others <= wide &&
+          pieces < (debris ? 6 : 1.25) * (double)n / 32))
+      fail_msg("debris %d: %ld wide with %ld others, %ld pieces of %ld", debris, wide, others,
+               pieces, n);
+    lab_free(l);
+  }
+}
+
+/* Every particle is in one piece, whatever the number and size of pieces. */
+static void pieces_are_whole(void **state)
+{
+  (void)state;
+  for (long n : {1L, 31L, 33L, 129L, 4000L}) {
+    GravityLab *l = lab_new(shape(SPHERE, n, 9, 2));
+    CudaError *error = &l->cuda.error;
+    for (int chunk : {8, 16, 32}) {
+      Walk w = walk_of(&l->sim);
+      std::vector<int2> piece((size_t)n);
+      std::vector<int> seen((size_t)n);
+      int pieces;
+      w.chunk = chunk;
+      CHECK(cudaMemset(w.queue.pieces, 0, sizeof pieces));
+      LAUNCH(walk_cut, launch_blocks((size_t)n, 128), 128, 0, 0, w);
+      lab_down(l, &pieces, w.queue.pieces, 1);
+      assert_in_range(pieces, (n + chunk - 1) / chunk, n);
+      lab_down(l, piece.data(), w.queue.piece, (size_t)pieces);
+      for (int k = 0; k < pieces; k++) {
+        assert_in_range(piece[(size_t)k].y, 1, chunk);
+        for (int i = 0; i < piece[(size_t)k].y; i++) seen[(size_t)(piece[(size_t)k].x + i)]++;
+      }
+      for (int times : seen) assert_int_equal(times, 1);
+    }
     lab_free(l);
   }
 }
@@ -256,6 +305,7 @@ int main(void)
       cmocka_unit_test(planes_stay_plane),
       cmocka_unit_test(massless_particles_do_not_act),
       cmocka_unit_test(pieces_are_compact),
+      cmocka_unit_test(pieces_are_whole),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -52,6 +52,7 @@ typedef struct {
   float4 *com; /* [nodes] centre of mass, rounded; w: mass */
   Pole *pole;  /* [nodes] */
   double *moment; /* [nodes][10] SI, for the upward pass */
+  char2 *span;    /* [n] levels: x: common with the particle before, y: of its leaf */
   int *level; /* [CUDA_LEVELS + 2] first node of each level; level[CUDA_LEVELS + 1]: all nodes */
   int nodes, levels; /* as the host knows them after cuda_tree */
   long room;
@@ -73,6 +74,7 @@ typedef struct {
   Units unit;
   Root *root;
   Points x;
+  void *scratch; /* 8 B a particle, for any pass after the sort */
   DeviceTree tree;
   Lists lists;
   PairRun run;

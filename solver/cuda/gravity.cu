@@ -12,19 +12,22 @@ enum {
   DIRECT_BLOCK = 128, /* targets a block, sources a tile */
   RECOIL_BLOCKS = 512,
   RECOIL_THREADS = 128,
-  FEW_WARPS = 5000 /* a card wants more than these at work */
+  FEW_WARPS = 5000, /* a card wants more than these at work */
+  WALKERS = 4096    /* blocks; those that find no room on the card come when no piece is left */
 };
 
 struct CudaGravity {
   Recoil *recoil;
   RecoilForce *force; /* [RECOIL_BLOCKS] */
   RecoilTorque *torque;
+  int *queue; /* [2] of WalkQueue: pieces, next */
 };
 
 size_t cuda_gravity_bytes(const Sim *sim)
 {
   const size_t part = sizeof(RecoilForce) + sizeof(RecoilTorque);
-  return sim->par.gravity == PARAM_TREE ? RECOIL_BLOCKS * part + sizeof(Recoil) : 0;
+  return sim->par.gravity == PARAM_TREE ? RECOIL_BLOCKS * part + sizeof(Recoil) + 2 * sizeof(int)
+                                        : 0;
 }
 
 /* A sum of floats to twice their precision (Knuth's two-sum): fast on every card. */
@@ -173,7 +176,8 @@ int cuda_gravity_open(Sim *sim, Err *err)
   if (sim->par.gravity != PARAM_TREE) return 0;
   if (cuda_alloc(sim, (void **)&g->recoil, sizeof *g->recoil, err) ||
       cuda_alloc(sim, (void **)&g->force, RECOIL_BLOCKS * sizeof *g->force, err) ||
-      cuda_alloc(sim, (void **)&g->torque, RECOIL_BLOCKS * sizeof *g->torque, err))
+      cuda_alloc(sim, (void **)&g->torque, RECOIL_BLOCKS * sizeof *g->torque, err) ||
+      cuda_alloc(sim, (void **)&g->queue, 2 * sizeof *g->queue, err))
     return -1;
   return 0;
 }
@@ -182,12 +186,12 @@ void cuda_gravity_close(Sim *sim)
 {
   CudaGravity *g = cuda_of(sim)->gravity;
   if (!g) return;
-  cuda_free(g->recoil), cuda_free(g->force), cuda_free(g->torque);
+  cuda_free(g->recoil), cuda_free(g->force), cuda_free(g->torque), cuda_free(g->queue);
   free(g);
   cuda_of(sim)->gravity = NULL;
 }
 
-/* Particles a warp: 32 share a walk best, fewer when there would not be work for the card. */
+/* Particles a piece: 32 share a walk best, fewer when there would not be work for the card. */
 static int chunk_of(long n)
 {
   int chunk = 32;
@@ -199,8 +203,11 @@ static Walk walk_of(const Sim *sim)
 {
   const Cuda *c = cuda_of(sim);
   const State *s = &sim->s;
-  Walk w = {c->tree, c->x,           c->root,      s->x,       s->m,     s->h,      s->pull,
-            s->phi,  c->unit.length, c->unit.mass, sim->par.G, INFINITY, (int)s->n, chunk_of(s->n)};
+  int *queue = c->gravity->queue;
+  Walk w = {
+      c->tree,    c->x,     c->root,   s->x,           s->m,
+      s->h,       s->pull,  s->phi,    c->unit.length, c->unit.mass,
+      sim->par.G, INFINITY, (int)s->n, chunk_of(s->n), {(int2 *)c->scratch, queue, queue + 1}};
   if (sim->par.theta > 0) w.over_theta = (float)(1 / sim->par.theta);
   return w;
 }
@@ -212,8 +219,10 @@ static void tree(Sim *sim, const Walk &w, int single)
   CudaError *error = &c->error;
   const unsigned all = launch_blocks((size_t)w.n, RECOIL_THREADS),
                  parts = all < (unsigned)RECOIL_BLOCKS ? all : (unsigned)RECOIL_BLOCKS;
-  LAUNCH(single ? walk_tree<float> : walk_tree<double>,
-         launch_blocks((size_t)w.n, (unsigned)w.chunk), 32, 0, c->stream, w);
+  CHECK(cudaMemsetAsync(g->queue, 0, 2 * sizeof *g->queue, c->stream));
+  LAUNCH(walk_cut, launch_blocks((size_t)w.n, 128), 128, 0, c->stream, w);
+  LAUNCH(single ? walk_tree<float> : walk_tree<double>, w.n < WALKERS ? w.n : WALKERS, 32, 0,
+         c->stream, w);
   LAUNCH(recoil_parts<RecoilForce>, parts, RECOIL_THREADS, 0, c->stream, w, g->recoil, g->force);
   LAUNCH(recoil_all<RecoilForce>, 1, RECOIL_THREADS, 0, c->stream, g->force, (int)parts, g->recoil);
   LAUNCH(recoil_parts<RecoilTorque>, parts, RECOIL_THREADS, 0, c->stream, w, g->recoil, g->torque);

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The tree walk of one warp. It takes up to 32 consecutive particles, cut where the curve jumps,
- * and walks the tree once for all of each piece. The stack holds ranges of brothers; four are
- * opened at once, each lane looks at one child. What is accepted or must be summed particle by
- * particle is collected and evaluated 32 at a time from shared memory.
+/* The tree walk. Its targets are pieces: up to 32 consecutive particles, cut where the curve jumps.
+ * Warps take one piece after another and walk the tree once for all of it; so where there are many
+ * small ones, in debris, no warp is left with more than others. The stack holds ranges of brothers;
+ * four are opened at once, each lane looks at one child. What is accepted or must be summed
+ * particle by particle is collected and evaluated 32 at a time from shared memory.
  *
  * Each lane sums for two targets, and lanes with the same targets share the sources: of 8 targets,
  * eight lanes have the same two and take every eighth source each. So small pieces waste nothing,
@@ -29,6 +30,12 @@ enum {
 };
 static const float WALK_JUMP = 4; /* a gap in the order over the one beside it */
 
+/* Pieces, in no order; next: that which is to be walked next. */
+typedef struct {
+  int2 *piece; /* [n] x: first particle, y: particles */
+  int *pieces, *next;
+} WalkQueue;
+
 typedef struct {
   DeviceTree tree;
   Points points;
@@ -37,7 +44,8 @@ typedef struct {
   double *pull, *phi;      /* m/s^2, J/kg */
   double length, mass, G;  /* code units in SI; m^3/kg/s^2 */
   float over_theta;
-  int n, chunk; /* chunk: particles a warp, a power of two, at most 32 */
+  int n, chunk; /* chunk: the most particles of a piece, a power of two, at most 32 */
+  WalkQueue queue;
 } Walk;
 
 /* Shared memory of the warp: lists of nodes and particles, and the 32 sources at hand. */
@@ -109,16 +117,20 @@ INLINE float walk_step2(const Walk &w, int i)
   return x * x + y * y + z * z;
 }
 
-/* walk_jumps: whether a piece ends with particle i: the next is much further away than the one
- * before it, or the two after it from each other; h floors what counts as near. Dispersed debris,
- * far apart everywhere, stays together. */
+/* walk_jumps: whether a piece ends with particle i: the next is far away, and either much further
+ * than the one before it, or the two after it from each other, or in another leaf. h floors what
+ * counts as near. Debris, far apart everywhere, stays together in leaves: there is hardly anything
+ * else in their boxes, whereas the box of any 32 in a row may hold a whole body. */
 INLINE int walk_jumps(const Walk &w, int i)
 {
   if (i + 1 >= w.n) return 0;
   const float ha = 0.4f * w.points.hi[i].w, hb = 0.4f * w.points.hi[i + 1].w;
+  const float gap = walk_step2(w, i) / (WALK_JUMP * WALK_JUMP);
+  const char2 next = w.tree.span[i + 1];
+  if (!(gap > fminf(ha * ha, hb * hb))) return 0;
   const float before = fmaxf(walk_step2(w, i - 1), ha * ha),
               after = fmaxf(walk_step2(w, i + 1), hb * hb);
-  return walk_step2(w, i) > WALK_JUMP * WALK_JUMP * fminf(before, after);
+  return gap > fminf(before, after) || next.x < next.y;
 }
 
 INLINE float walk_min(float x)
@@ -322,19 +334,34 @@ INLINE void walk_group(const Walk &w, WalkShared<Real> *s, int first, int count)
   walk_end(w, &g, first, count);
 }
 
-/* walk_tree: one warp a block; 16 blocks (double: 12) or more share a multiprocessor. */
+/* walk_cut: queues the pieces; a warp takes 32 particles, which are whole chunks. */
+static __global__ void __launch_bounds__(128) walk_cut(const __grid_constant__ Walk w)
+{
+  const int i = (int)(blockIdx.x * blockDim.x + threadIdx.x), lane = (int)threadIdx.x % 32;
+  const int ends = i < w.n && (i + 1 == w.n || (i + 1) % w.chunk == 0 || walk_jumps(w, i));
+  const unsigned all = __ballot_sync(~0u, ends), below = all & ((1u << lane) - 1);
+  int at = 0;
+  if (lane == 0 && all) at = atomicAdd(w.queue.pieces, __popc(all));
+  at = __shfl_sync(~0u, at, 0) + __popc(below);
+  const int count = below ? lane - 31 + __clz((int)below) : lane + 1;
+  if (ends) w.queue.piece[at] = make_int2(i + 1 - count, count);
+}
+
+/* walk_tree: one warp a block, as many as the card can have at work; 16 blocks (double: 12) or more
+ * share a multiprocessor. */
 template <class Real>
 __global__ void __launch_bounds__(32, sizeof(Real) == 4 ? 16 : 12)
     walk_tree(const __grid_constant__ Walk w)
 {
   __shared__ WalkShared<Real> s;
-  const int lane = (int)threadIdx.x, first = (int)blockIdx.x * w.chunk,
-            count = min(w.chunk, w.n - first);
-  unsigned cut = __ballot_sync(~0u, lane < count - 1 && walk_jumps(w, first + lane));
-  for (int from = 0, end; from < count; from = end) {
-    end = cut ? __ffs((int)cut) : count;
-    cut &= cut - 1;
-    walk_group(w, &s, first + from, end - from);
+  const int pieces = *w.queue.pieces;
+  for (;;) {
+    int k = threadIdx.x == 0 ? atomicAdd(w.queue.next, 1) : 0;
+    k = __shfl_sync(~0u, k, 0);
+    if (k >= pieces) return;
+    const int2 piece = w.queue.piece[k];
+    walk_group(w, &s, piece.x, piece.y);
+    __syncwarp(); /* the stack is free again */
   }
 }
 

@@ -272,6 +272,7 @@ static void sort_keys(Cuda *c, long n, const int64_t *id)
                                           3 * HILBERT_LEVELS, c->stream));
   o->key[0] = key.Current(), o->key[1] = key.Alternate();
   o->from[0] = from.Current(), o->from[1] = from.Alternate();
+  c->scratch = o->key[1];
   LAUNCH(sort_ties, launch_blocks((size_t)n, THREADS), THREADS, 0, c->stream, o->key[0], o->from[0],
          n, dropped, id);
 }

@@ -54,7 +54,7 @@ static __global__ void __launch_bounds__(THREADS) count_nodes(const __grid_const
   const long base = (long)blockIdx.x * THREADS, i = base + threadIdx.x;
   const char2 span = span_of(a.key, a.s.n, base);
   const int lane = threadIdx.x % 32, warp = threadIdx.x / 32;
-  if (i < a.s.n) a.b.span[i] = span;
+  if (i < a.s.n) a.t.span[i] = span;
   int mine = 0;
   for (int l = 0; l < ROWS; l++) {
     const unsigned begin = __ballot_sync(ALL, span.x < l && l <= span.y);
@@ -96,7 +96,7 @@ static __global__ void __launch_bounds__(THREADS) make_nodes(const __grid_consta
   __shared__ int place[WARPS][ROWS];
   const long i = (long)blockIdx.x * THREADS + threadIdx.x;
   const int lane = threadIdx.x % 32, warp = threadIdx.x / 32;
-  const char2 span = i < a.s.n ? a.b.span[i] : make_char2(CUDA_LEVELS, 0);
+  const char2 span = i < a.s.n ? a.t.span[i] : make_char2(CUDA_LEVELS, 0);
   int mine = 0, parent = -1;
   for (int l = 0; l < ROWS; l++) {
     const unsigned begin = __ballot_sync(ALL, span.x < l && l <= span.y);
@@ -471,7 +471,7 @@ int cuda_tree_open(Sim *sim, Err *err)
                                           c->stream)))
     return launch_failed(error, err);
   if (cuda_alloc(sim, (void **)&b->place, n * 16, err) ||
-      cuda_alloc(sim, (void **)&b->span, n * 2, err) ||
+      cuda_alloc(sim, (void **)&c->tree.span, n * 2, err) ||
       cuda_alloc(sim, (void **)&b->count, counts * 4, err) ||
       cuda_alloc(sim, (void **)&b->base, counts * 4, err) ||
       cuda_alloc(sim, &b->scan, b->scan_bytes, err) ||
@@ -487,7 +487,7 @@ void cuda_tree_close(Sim *sim)
   if (!b) return;
   free_nodes(c);
   cuda_free(c->tree.level), c->tree.level = NULL;
-  cuda_free(b->place), cuda_free(b->span), cuda_free(b->count), cuda_free(b->base);
+  cuda_free(b->place), cuda_free(c->tree.span), cuda_free(b->count), cuda_free(b->base);
   cuda_free(b->scan);
   free(b);
   c->build = NULL;

@@ -46,7 +46,6 @@ struct CudaTree {
   int *parent, *arrived; /* [room] */
   float4 *drift;         /* [room] D; w: the largest s + |D_leaf - D| below */
   int4 *place;           /* [n] x in units of edge/2^31; w: s as a float, code units */
-  char2 *span;           /* [n] levels: x: common with the particle before, y: of its leaf */
   int *count, *base;     /* [levels x blocks] nodes that begin in a block */
   void *scan;
   size_t scan_bytes;
