@@ -63,6 +63,13 @@ HD double damage_crack_speed(const struct damage_grady_kipp *d, double bulk, dou
   return d->crack * sqrt((bulk + 4. / 3 * mu * (1 - damage)) / rho);
 }
 
+/* damage_left: by how much D^(1/3) can still grow before it meets the limit ever/ntot; 0 there. */
+HD double damage_left(double damage, int ever, int ntot)
+{
+  double limit = (double)ever / ntot;
+  return damage < limit ? cbrt(limit) - cbrt(damage) : 0;
+}
+
 /* damage_grow: D after dt [s] with nact of ntot flaws active now and `ever` so far. D^(1/3) grows
  * at nact cg/rs (001 eq. 46), rs [m] the radius of the volume that a flaw has to cross: h, the
  * kernel's support, as in miluphcuda. D <= ever/ntot (001 eq. 47: the limit is one of D, not of

@@ -174,7 +174,7 @@ HD void passes_damage(const State *s, long i, double dt)
   if (active == 0) return;
   if (active > s->nact[i]) s->nact[i] = active;
   cg = damage_crack_speed(&m->damage.grady_kipp, eos_bulk(&m->eos), m->mu, s->damage[i], s->rho[i]);
-  if (s->damage[i] * s->nflaw[i] < s->nact[i]) s->dcrack[i] = active * cg / s->h[i];
+  if (damage_left(s->damage[i], s->nact[i], s->nflaw[i]) > 0) s->dcrack[i] = active * cg / s->h[i];
   s->damage[i] = damage_grow(s->damage[i], active, s->nact[i], s->nflaw[i], cg, s->h[i], dt);
 }
 
@@ -454,7 +454,10 @@ HD void pass_limits(const State *s, const Step *k, long i, double *dt)
   dt[LIMIT_CFL] = k->cfl * s->h[i] / s->signal[i];
   dt[LIMIT_ACCELERATION] = pull > 0 ? k->acceleration * sqrt(s->h[i] / pull) : INFINITY;
   dt[LIMIT_DENSITY] = s->divv[i] != 0 ? k->step_density / fabs(s->divv[i]) : INFINITY;
-  dt[LIMIT_DAMAGE] = k->damage && s->dcrack[i] > 0 ? k->step_damage / s->dcrack[i] : INFINITY;
+  dt[LIMIT_DAMAGE] = INFINITY;
+  if (k->damage && s->dcrack[i] > 0 &&
+      damage_left(s->damage[i], s->nact[i], s->nflaw[i]) > k->step_damage)
+    dt[LIMIT_DAMAGE] = k->step_damage / s->dcrack[i];
 }
 
 /* pass_bad: whether the state of i makes no sense any more, and why. */

@@ -141,6 +141,19 @@ static void grady_kipp(void **state)
     }
 }
 
+/* Nothing is left at the limit, for all numbers of flaws; before it, what is missing. */
+static void left(void **state)
+{
+  (void)state;
+  for (int n = 1; n <= 300; n++)
+    for (int ever = 1; ever <= n; ever++) {
+      double d = damage_grow(0, ever, ever, n, 1, 1, 2);
+      assert_true(damage_left(d, ever, n) == 0);
+      assert_true(damage_left(0.125 * d, ever, n) > 0);
+      assert_true(fabs(damage_left(0.125 * d, ever, n) - 0.5 * cbrt(d)) < 1e-14);
+    }
+}
+
 /* 001 eq. 49 for basalt: 53.06 GPa. */
 static void young(void **state)
 {
@@ -161,6 +174,7 @@ int main(void)
       cmocka_unit_test(single_flaw),
       cmocka_unit_test(single_flaw_slows),
       cmocka_unit_test(limiter),
+      cmocka_unit_test(left),
       cmocka_unit_test(active),
       cmocka_unit_test(grady_kipp),
       cmocka_unit_test(young),
