@@ -265,16 +265,15 @@ HD void passes_density(const State *s, const Step *k, long i)
   if (s->rho[i] < floor) s->rho[i] = floor;
 }
 
-/* advance: after loop A, takes rho, h, S and D to the end of the step (ha^2/h is the h it began
- * with); the energy there is predicted from the local work, once with the old pressure and once
- * with the mean of both; then EOS, yield, damage, and what the force loop needs. */
+/* advance: after loop A, takes rho, S and D to the end of the step; the energy there is predicted
+ * from the local work, once with the old pressure and once with the mean of both; then EOS, yield,
+ * damage, and what the force loop needs. */
 HD void pass_advance(const State *s, const Step *k, long i)
 {
   const double *g = &s->g[9 * i], mu = k->strength ? s->material[s->mat[i]].mu : 0;
   int solid = mu > 0;
   double p = s->p[i], u = s->u[i], heat = k->energy == 0 ? s->dqdt[i] : 0, work;
   Sym old = passes_stress(&s->s[6 * i]), mid = old;
-  if (k->smoothing) s->h[i] = passes_follow(s, k, i, s->ha[i] * s->ha[i] / s->h[i], k->dt);
   passes_density(s, k, i);
   if (solid) {
     Sym now = passes_elastic(old, g, mu, k->dt);
@@ -315,7 +314,9 @@ HD void passes_damp(const State *s, const Step *k, long i, double *acc)
 
 /* finish: after loop B and gravity: closes the kick and the energy, keeps the rates for the next
  * step: du, and what of it is not local work (viscosity, mostly), so that the next prediction of
- * the energy is as du and stays of second order. */
+ * the energy is as du and stays of second order. h follows with the divergence of this step only
+ * now (ha^2/h is what it began with): up to here it is the one that neighbours were searched with,
+ * so that each list holds whoever interacts, and both of a pair have it. */
 HD void pass_finish(const State *s, const Step *k, long i)
 {
   double half = 0.5 * k->dt, mu = k->strength ? s->material[s->mat[i]].mu : 0;
@@ -331,6 +332,8 @@ HD void pass_finish(const State *s, const Step *k, long i)
   s->dqdt[i] = s->du[i] - passes_work(s->p[i], passes_stress(&s->s[6 * i]), s->damage[i],
                                       s->divv[i], &s->g[9 * i], s->rho[i], mu > 0);
   if (s->p[i] > s->pmax[i]) s->pmax[i] = s->p[i];
+  if (k->smoothing && k->dt > 0)
+    s->h[i] = passes_follow(s, k, i, s->ha[i] * s->ha[i] / s->h[i], k->dt);
 }
 
 /* still: before an evaluation with everything at one instant: loop A at x, loop B with v. */

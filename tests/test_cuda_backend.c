@@ -369,7 +369,7 @@ static void all_loops(void **state)
       Parts *p = cloud(l->dimension == 1 ? 40 : 400, l->dimension);
       if (l->dimension > 1 && k == 0) p->h[123] *= 12; /* its list is one for a whole warp */
       Param par = lab_param(l->integrator, l->density, l->strength, l->kernel, precisions[k],
-                            "gravity.method=none", "smoothing.mode=fixed", NULL);
+                            "gravity.method=none", NULL);
       Sim sim[2];
       snprintf(what, sizeof what, "%s %s %s %dD", l->density, l->strength, precisions[k],
                l->dimension);
@@ -479,8 +479,8 @@ static void compare_runs(const char *precision, double place, double total)
 static void impacts(void **state)
 {
   (void)state;
-  compare_runs("precision=double", 1e-6, 1e-9);
-  compare_runs("precision=mixed", 0.01, 1e-4);
+  compare_runs("precision=double", 1e-11, 1e-12);
+  compare_runs("precision=mixed", 1e-3, 1e-6);
 }
 
 /* Ten runs, one result. */

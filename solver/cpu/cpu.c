@@ -167,6 +167,7 @@ static int cpu_search(Sim *sim, Err *err)
 {
   Cpu *c = sim->own;
   State *s = &sim->s;
+  double *reach = c->record; /* the larger of both h: at x a pair has h, at y ha */
   int bad;
   backend_begin(sim, TIMER_ORDER);
   /* Errors of the tree that stay the same from step to step pull a body as a whole: another cube
@@ -174,11 +175,12 @@ static int cpu_search(Sim *sim, Err *err)
   c->tree.shift = hilbert_shift(sim->step);
   bad = tree_order(s->n, s->x, s->id, c->tree.shift, c->order, err);
   if (!bad) reorder_all(sim);
-  bad = bad || tree_build(&c->tree, s->n, s->x, s->m, s->h, err);
+  for (long i = 0; i < s->n; i++) reach[i] = s->ha[i] > s->h[i] ? s->ha[i] : s->h[i];
+  bad = bad || tree_build(&c->tree, s->n, s->x, s->m, reach, err);
   backend_end(sim, TIMER_ORDER);
   if (bad) return -1;
   backend_begin(sim, TIMER_SEARCH);
-  bad = ngb_search(&c->ngb, &c->tree, s->x, s->y, s->h, 1, err);
+  bad = ngb_search(&c->ngb, &c->tree, s->x, s->y, reach, 1, err);
   backend_end(sim, TIMER_SEARCH);
   return bad;
 }
