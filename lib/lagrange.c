@@ -13,7 +13,8 @@ static const double PI = 3.14159265358979323846, ALPHA = 1, BETA2 = 4, COURANT =
 
 typedef struct {
   double m, rho, u, p, c, q; /* kg, kg/m^3, J/kg, Pa (not cut at 0), m/s, Pa */
-  const Eos *eos;
+  const StructureLayer *law;
+  const StructureState *anchor;
   int layer;
 } Cell;
 
@@ -53,13 +54,17 @@ static double time_step(const Shells *s)
   return dt;
 }
 
-/* Along the isentrope to a new density, by the midpoint rule. */
+/* Along the layer's law to a new density, by the midpoint rule. */
 static void compress(Cell *c, double rho)
 {
-  double mid = (c->rho + rho) / 2, half = c->u + c->p / (c->rho * c->rho) * (mid - c->rho);
-  EosPoint point = eos_eval(c->eos, mid, half, 0);
-  c->u += point.p / (mid * mid) * (rho - c->rho);
-  point = eos_eval(c->eos, rho, c->u, 0);
+  const Eos *eos = &c->law->material->eos;
+  double mid = (c->rho + rho) / 2, half, slope;
+  EosPoint point;
+  structure_stiffness(c->law, c->anchor, c->rho, c->u, &slope);
+  half = c->u + slope * (mid - c->rho);
+  structure_stiffness(c->law, c->anchor, mid, half, &slope);
+  c->u += slope * (rho - c->rho);
+  point = eos_eval(eos, rho, c->u, 0);
   c->rho = rho, c->p = point.p, c->c = point.cs;
 }
 
@@ -111,23 +116,29 @@ static int allocate(Shells *s, long n, Err *err)
   return s->cell && s->r && s->v && s->m ? 0 : err_set(err, "out of memory");
 }
 
-/* The uncompressed body at rest. */
-static int start(Shells *s, const StructureLayer *layer, int layers, long cells, Err *err)
+/* The body at rest, all at the pressure outside. */
+static int start(Shells *s, const StructureBody *body, const StructureState *anchor, long cells,
+                 Err *err)
 {
+  const StructureLayer *layer = body->layer;
   double inside = 0, mass = 0, volume = 0, c = 0, before = 0;
-  for (int k = 0; k < layers; k++) mass += layer[k].mass;
-  for (int k = 0; k < layers; k++) {
+  for (int k = 0; k < body->layers; k++) mass += layer[k].mass;
+  for (int k = 0; k < body->layers; k++) {
     double third = cbrt((inside + layer[k].mass) / mass), rho;
     long n = (long)fmax(3, (double)cells * (third - before));
-    if (structure_density(layer[k].eos, layer[k].u0, &rho, err)) return -1;
+    StructureState state;
+    if (structure_move(&layer[k], &anchor[k], body->outer, &state))
+      return err_set(err, "layer %d has no state at %g Pa", k + 1, body->outer);
+    rho = state.rho;
     for (long i = 1; i <= n; i++) {
       double at = before + (third - before) * (double)i / (double)n;
       Cell *cell = s->cell + s->n++;
       s->m[s->n] = i == n ? inside + layer[k].mass : at * at * at * mass;
       *cell = (Cell){.m = s->m[s->n] - s->m[s->n - 1],
                      .rho = rho,
-                     .u = layer[k].u0,
-                     .eos = layer[k].eos,
+                     .u = state.u,
+                     .law = &layer[k],
+                     .anchor = &anchor[k],
                      .layer = k};
       compress(cell, rho);
       volume += cell->m / rho, c += cell->c * cell->m / mass;
@@ -135,21 +146,39 @@ static int start(Shells *s, const StructureLayer *layer, int layers, long cells,
     }
     inside += layer[k].mass, before = third, s->end[k] = s->n;
   }
+  s->cell[s->n].p = body->outer;
   s->tau = fmin(0.3 * sqrt(3 * PI / 32 / UNIT_G * volume / mass), s->r[s->n] / (2 * PI * c));
   return 0;
 }
 
-/* The state at an edge of a cell, where m lies inside: the pressure by the weight of half the cell,
- * as in step 1 (at the centre p_c = p + 2 pi/3 G rho^2 r^2), the density on the cell's isentrope by
- * Newton's method. */
-static StructureNode node(const Cell *cell, double from, double r, double m, double half)
+static StructureNode state(const Cell *c, double r, double m)
 {
-  double g = r > 0 ? UNIT_G * m / (r * r) : 0;
+  double du, stiff = structure_stiffness(c->law, c->anchor, c->rho, c->u, &du);
+  return (StructureNode){.r = r,
+                         .m = m,
+                         .rho = c->rho,
+                         .p = push(c),
+                         .u = c->u,
+                         .g = r > 0 ? UNIT_G * m / (r * r) : 0,
+                         .cs = c->c,
+                         .rho_p = 1 / stiff,
+                         .u_p = du / stiff,
+                         .layer = c->layer};
+}
+
+/* The state at an edge of a cell, where m lies inside: the pressure by the weight of half the cell,
+ * as in step 1 (at the centre p_c = p + 2 pi/3 G rho^2 r^2), the density on the cell's law by
+ * Newton's method. */
+static StructureNode edge(const Cell *cell, double from, double r, double m, double half)
+{
+  double g = r > 0 ? UNIT_G * m / (r * r) : 0, du;
   double p = cell->p +
              (r > 0 ? g * half / (4 * PI * r * r) : 2 * PI / 3 * UNIT_G * pow(cell->rho * from, 2));
   Cell c = *cell;
-  for (int k = 0; k < 4; k++) compress(&c, c.rho + (p - c.p) / (c.c * c.c));
-  return (StructureNode){r, m, c.rho, fmax(p, 0), c.u, g, c.c, c.layer};
+  for (int k = 0; k < 4; k++)
+    compress(&c, c.rho + (p - c.p) / structure_stiffness(c.law, c.anchor, c.rho, c.u, &du));
+  c.p = p;
+  return state(&c, r, m);
 }
 
 /* Nodes at the middle of the cells (of volume and mass) and at both ends of each layer. */
@@ -162,26 +191,45 @@ static int result(const Shells *s, Structure *out, int layers, Err *err)
     const Cell *c = s->cell + k;
     double mid = cbrt((pow(s->r[k], 3) + pow(s->r[k + 1], 3)) / 2), m = s->m[k] + c->m / 2;
     if (k == 0 || k == s->end[layer - 1])
-      out->node[out->n++] = node(c, mid, s->r[k], s->m[k], c->m / 2), layer++;
-    out->node[out->n++] =
-        (StructureNode){mid, m, c->rho, push(c), c->u, UNIT_G * m / (mid * mid), c->c, c->layer};
+      out->node[out->n++] = edge(c, mid, s->r[k], s->m[k], c->m / 2), layer++;
+    out->node[out->n++] = state(c, mid, m);
     if (k + 1 == s->end[layer - 1]) {
-      out->node[out->n++] = node(c, mid, s->r[k + 1], s->m[k + 1], -c->m / 2);
+      out->node[out->n++] = edge(c, mid, s->r[k + 1], s->m[k + 1], -c->m / 2);
       out->first[layer] = out->n;
     }
   }
   return 0;
 }
 
-int lagrange_relax(Structure *out, const StructureLayer *layer, int layers, long cells, Err *err)
+/* The layers' laws: an isentrope of a condensed material needs no structure. */
+static int anchors(const StructureBody *body, StructureState *anchor, Err *err)
+{
+  int known = 1;
+  for (int k = 0; k < body->layers; k++) {
+    const StructureLayer *l = &body->layer[k];
+    known = known && l->anchor == STRUCTURE_ENERGY && !l->power && eos_rho0(&l->material->eos) > 0;
+  }
+  if (!known) return structure_anchors(body, anchor, err);
+  for (int k = 0; k < body->layers; k++) {
+    const StructureLayer *l = &body->layer[k];
+    anchor[k] = (StructureState){0, 0, l->at, NAN};
+    if (structure_density(&l->material->eos, l->at, &anchor[k].rho, err)) return -1;
+  }
+  return 0;
+}
+
+int lagrange_relax(Structure *out, const StructureBody *body, long cells, Err *err)
 {
   Shells s = {0};
+  StructureState anchor[STRUCTURE_LAYERS];
   double quiet = 0, fall, end;
-  int rc = -1;
+  int rc = -1, layers = body->layers;
   if (layers < 1 || layers > STRUCTURE_LAYERS)
     return err_set(err, "%d layers, not 1..%d", layers, STRUCTURE_LAYERS);
   if (cells < 16 || cells > 100000) return err_set(err, "%ld shells, not 16..100000", cells);
-  if (allocate(&s, cells, err) || start(&s, layer, layers, cells, err)) goto done;
+  if (body->weightless) return err_set(err, "without gravity there is nothing to relax");
+  if (anchors(body, anchor, err)) return -1;
+  if (allocate(&s, cells, err) || start(&s, body, anchor, cells, err)) goto done;
   fall = sqrt(PI * PI / 8 * pow(s.r[s.n], 3) / (UNIT_G * s.m[s.n])); /* sqrt(3 pi/(32 G rho)) */
   end = 200 * fall;
   while (quiet < 2 * fall && s.t < end) {
@@ -192,6 +240,7 @@ int lagrange_relax(Structure *out, const StructureLayer *layer, int layers, long
     err_set(err, "the shells did not come to rest in 200 free-fall times (%.3g s)", end);
   else
     rc = result(&s, out, layers, err);
+  if (!rc) structure_heat(out, body);
 done:
   shells_free(&s);
   return rc;

@@ -5,7 +5,7 @@
 #include <gsl/gsl_odeiv2.h>
 #include "thermal.h"
 
-static const double EXACT = 1e-12, REFERENCE = 298.15; /* K */
+static const double EXACT = 1e-12; /* entropy is counted from 1 K */
 
 static int slope(double log_rho, const double u[], double du[], void *eos)
 {
@@ -47,15 +47,22 @@ double thermal_energy(const Material *m, double rho, double t)
   return m->heat > 0 ? thermal_cold(&m->eos, rho) + m->heat * t : NAN;
 }
 
+/* u = u_cold + C_V T, so that u_cold need not be known. */
+double thermal_slope(const Material *m, double rho, double u, double t, double a)
+{
+  double cold = eos_rho0(&m->eos) > 0 ? eos_eval(&m->eos, rho, u - m->heat * t, 0).p : 0;
+  return m->heat > 0 ? cold / (rho * rho) + m->heat * t * a / rho : NAN;
+}
+
 double thermal_entropy(const Material *m, double rho, double u)
 {
   double rho0 = eos_rho0(&m->eos);
   if (!(m->heat > 0 && rho0 > 0)) return NAN;
   u = thermal_isentrope(&m->eos, rho, u, rho0);
-  return m->heat * log(fmax(u, 0) / m->heat / REFERENCE);
+  return m->heat * log(fmax(u, 0) / m->heat);
 }
 
 double thermal_at_entropy(const Material *m, double s)
 {
-  return m->heat > 0 && eos_rho0(&m->eos) > 0 ? m->heat * REFERENCE * exp(s / m->heat) : NAN;
+  return m->heat > 0 && eos_rho0(&m->eos) > 0 ? m->heat * exp(s / m->heat) : NAN;
 }

@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include "../../lib/lay.h"
 #include "../../lib/material.h"
 #include "../../lib/opt.h"
 #include "../../lib/progress.h"
@@ -86,23 +87,23 @@ static int write_profile(const Structure *s, const char *path, Err *err)
 /* Reads the body, solves its structure and lays it on the particles. */
 static int prepare(Body *b, const char *path, Err *err)
 {
-  StructureLayer layer[STRUCTURE_LAYERS];
+  StructureBody body;
   const StructureNode *top;
-  int n;
   if (!(b->p = snap_read(path, err))) return -1;
   if (part_need(b->p, SIM_FIELDS, path ? path : "stdin", err)) return -1;
   if (part_check(b->p, path ? path : "stdin", err)) return -1;
   if (!(b->material = material_load(b->p, err))) return -1;
   if (!(b->layer = malloc(sizeof *b->layer * (size_t)(b->p->n ? b->p->n : 1))))
     return err_set(err, "not enough memory");
-  n = structure_layers(b->p, b->material, layer, b->layer, err);
-  if (n < 0 || structure_solve(&b->s, layer, n, o.nodes, err)) return -1;
+  if (lay_layers(b->p, b->material, &body, b->layer, err) < 0 ||
+      structure_solve(&b->s, &body, o.nodes, err))
+    return -1;
   top = &b->s.node[b->s.n - 1];
   b->free_fall = sqrt(acos(-1) * acos(-1) * pow(top->r, 3) / (8 * UNIT_G * top->m));
   b->sound = top->r / b->s.node[0].cs;
   b->spacing = cbrt(4. / 3 * acos(-1) * pow(top->r, 3) / (double)b->p->n * sqrt(2));
   if (o.profile && write_profile(&b->s, o.profile, err)) return -1;
-  return o.only ? 0 : structure_lay(b->p, b->material, &b->s, err);
+  return o.only ? 0 : lay_body(b->p, b->material, &b->s, err);
 }
 
 static Param settings(int damped, double tau)
