@@ -57,7 +57,7 @@ HD real kernel_cubic_spline(int dimension, real q)
 HD real kernel_cubic_spline_dwq(int dimension, real q)
 {
   (void)dimension;
-  return q < 0.5f ? 18 * q - 12 : -6 * kernel_plus2(1 - q) / kernel_max(q, 0.5f);
+  return q < 0.5f ? 18 * q - 12 : -6 * kernel_plus2(1 - q) * real_inverse(kernel_max(q, 0.5f));
 }
 
 HD real kernel_quartic_spline(int dimension, real q)
@@ -68,8 +68,8 @@ HD real kernel_quartic_spline(int dimension, real q)
 
 HD real kernel_quartic_spline_dwq(int dimension, real q)
 {
-  real outer =
-      -4 * (kernel_plus3(1 - q) - 5 * kernel_plus3((real)0.6 - q)) / kernel_max(q, (real)0.2);
+  real outer = -4 * (kernel_plus3(1 - q) - 5 * kernel_plus3((real)0.6 - q)) *
+               real_inverse(kernel_max(q, (real)0.2));
   (void)dimension;
   return q < (real)0.2 ? 24 * q * q - (real)4.8 : outer;
 }
@@ -83,8 +83,8 @@ HD real kernel_quintic_spline(int dimension, real q)
 
 HD real kernel_quintic_spline_dwq(int dimension, real q)
 {
-  real outer = -5 * (kernel_plus4(1 - q) - 6 * kernel_plus4((real)(2. / 3) - q)) /
-               kernel_max(q, (real)(1. / 3));
+  real outer = -5 * (kernel_plus4(1 - q) - 6 * kernel_plus4((real)(2. / 3) - q)) *
+               real_inverse(kernel_max(q, (real)(1. / 3)));
   (void)dimension;
   return q < (real)(1. / 3) ? (40 - 50 * q) * q * q - (real)(40. / 9) : outer;
 }
@@ -136,7 +136,7 @@ HD real kernel_spiky(int dimension, real q)
 HD real kernel_spiky_dwq(int dimension, real q)
 {
   (void)dimension;
-  return -3 * kernel_plus2(1 - q) / kernel_max(q, (real)1e-10);
+  return -3 * kernel_plus2(1 - q) * real_inverse(kernel_max(q, (real)1e-10));
 }
 
 /* kernel_w: w(q), without sigma/h^D. kern is a Kernel, dimension 1, 2 or 3, q >= 0. */

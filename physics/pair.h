@@ -25,9 +25,9 @@ typedef struct {
 HD real pair_dot(PairVector a, PairVector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 /* pair_slope: f of grad_i W = f r [m^-(D+2)]; *inside: whether the pair interacts. */
-HD real pair_slope(int kern, int line, const PairRun *run, real r2, real h, int *inside)
+HD real pair_slope(int kern, int line, const PairRun *run, real r, real h, int *inside)
 {
-  real ih = 1 / h, q = sqrt(r2) * ih, power = ih * ih * ih;
+  real ih = real_inverse(h), q = r * ih, power = ih * ih * ih;
   if (!line) power *= run->dimension == 3 ? ih * ih : ih;
   *inside = q < 1;
   return (real)run->sigma * power * kernel_dwq(kern, line ? 1 : 3, q);
@@ -36,9 +36,9 @@ HD real pair_slope(int kern, int line, const PairRun *run, real r2, real h, int 
 /* pair_weight: W_ij [m^-D]. */
 HD real pair_weight(int kern, int line, const PairRun *run, real r2, real h)
 {
-  real ih = 1 / h, power = ih;
+  real over, ih = real_inverse(h), q = real_root(r2, &over) * ih, power = ih;
   if (!line) power *= run->dimension == 3 ? ih * ih : ih;
-  return (real)run->sigma * power * kernel_w(kern, line ? 1 : 3, sqrt(r2) * ih);
+  return (real)run->sigma * power * kernel_w(kern, line ? 1 : 3, q);
 }
 
 /* Loop A: contributions to the raw velocity gradient g_ab = sum V_j (v_j - v_i)_a dW_b [1/s] and to
@@ -56,7 +56,8 @@ HD PairGradient pair_gradient(PairVector r, PairVector v, real h, real volume, i
 {
   PairGradient o = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
   int inside;
-  real f = -volume * pair_slope(kern, line, run, pair_dot(r, r), h, &inside);
+  real over,
+      f = -volume * pair_slope(kern, line, run, real_root(pair_dot(r, r), &over), h, &inside);
   real wx = f * r.x, wy = f * r.y, wz = f * r.z;
   if (!solid) {
     o.gxx = v.x * wx + v.y * wy + v.z * wz;
@@ -91,9 +92,9 @@ typedef struct {
 /* pair_signal: what limits the step [m/s]: waves from both sides and approach, c_i + c_j - 3
  * v_ij.r_ij/r; or the viscosity, whose rate on a pair is 4 (alpha c + beta |nu|)/h for a spline:
  * 3.2 times that speed keeps twice that rate times the step below 1 at cfl 0.4. */
-HD real pair_signal(real waves, real vr, real r2, real viscous)
+HD real pair_signal(real waves, real vr, real over_r, real viscous)
 {
-  real both = waves - (vr < 0 ? 3 * vr / sqrt(r2) : 0);
+  real both = waves - (vr < 0 ? 3 * vr * over_r : 0);
   return both > (real)3.2 * viscous ? both : (real)3.2 * viscous;
 }
 
@@ -128,7 +129,8 @@ HD PairForce pair_force(PairVector r, const PairBody *i, const PairBody *j, int 
   int inside;
   PairVector v = {i->vx - j->vx, i->vy - j->vy, i->vz - j->vz}, t;
   real r2 = pair_dot(r, r), vr = pair_dot(v, r), h = 0.5f * (i->h + j->h), own;
-  real f = pair_slope(kern, line, run, r2, h, &inside), mm = i->m * j->m;
+  real over_r, r1 = real_root(r2, &over_r);
+  real f = pair_slope(kern, line, run, r1, h, &inside), mm = i->m * j->m;
   real nu = viscosity_nu(vr, r2, h), cs = 0.5f * (i->cs + j->cs);
   real pi = mm * viscosity_pi(nu, cs, 0.5f * (i->rho + j->rho), (real)run->alpha, (real)run->beta);
   real p = miscible ? i->p + j->p : mm * (i->p + j->p);
@@ -142,7 +144,7 @@ HD PairForce pair_force(PairVector r, const PairBody *i, const PairBody *j, int 
   if (!miscible) own = pair_dot(v, t);
   o.fx = f * (t.x - pi * r.x), o.fy = f * (t.y - pi * r.y), o.fz = f * (t.z - pi * r.z);
   o.work = 0.5f * f * (pi * vr - own);
-  o.signal = inside ? pair_signal(i->signal + j->signal, vr, r2,
+  o.signal = inside ? pair_signal(i->signal + j->signal, vr, over_r,
                                   (real)run->alpha * cs - (real)run->beta * nu)
                     : 0;
   o.near = inside ? 1 : 0;

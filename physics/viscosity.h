@@ -13,13 +13,13 @@
  * pair's support radius [m]. */
 HD real viscosity_nu(real vr, real r2, real h)
 {
-  return vr < 0 ? h * vr / (r2 + (real)0.01 * h * h) : 0;
+  return vr < 0 ? h * vr * real_inverse(r2 + (real)0.01 * h * h) : 0;
 }
 
 /* viscosity_pi: [m^5/kg/s^2] for the pair's mean sound speed c and mean density rho; >= 0. */
 HD real viscosity_pi(real nu, real c, real rho, real alpha, real beta)
 {
-  return (beta * nu - alpha * c) * nu / rho;
+  return (beta * nu - alpha * c) * nu * real_inverse(rho);
 }
 
 #endif

@@ -150,7 +150,7 @@ template <int solid> static __device__ PairBody body_get(const Records &r, long 
   const Quad p = quad_get(r.q[0], i), q = quad_get(r.q[1], i);
   b.vx = p.x, b.vy = p.y, b.vz = p.z, b.rho = p.w;
   b.cs = q.x, b.signal = q.y, b.p = q.z, b.dxx = q.w;
-  b.inverse_rho = solid ? 1 / b.rho : 0;
+  b.inverse_rho = solid ? real_inverse(b.rho) : 0;
   if (solid) {
     const Quad u = quad_get(r.q[2], i), w = quad_get(r.q[3], i);
     b.dxy = u.x, b.dxz = u.y, b.dyx = u.z, b.dyy = u.w;
