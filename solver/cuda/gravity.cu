@@ -68,9 +68,9 @@ INLINE DirectBody<float> direct_body(const Walk &w, int i, float)
 
 INLINE DirectBody<double> direct_body(const Walk &w, int i, double)
 {
-  const double *x = w.x + 3 * (int64_t)i, *o = w.root->origin, il = 1 / w.length;
+  const double *x = w.x + 3 * (int64_t)i, *o = w.root->origin, il = w.il;
   return {{x[0] * il, x[1] * il, x[2] * il, 0.5 * il * w.h[i]},
-          {-o[0] * il, -o[1] * il, -o[2] * il, w.m[i] / w.mass}};
+          {-o[0] * il, -o[1] * il, -o[2] * il, w.m[i] * w.im}};
 }
 
 /* All pairs. The force on the pair is m_i m_j (...), its sum is as precise as a double, and what is
@@ -204,11 +204,14 @@ static Walk walk_of(const Sim *sim)
   const Cuda *c = cuda_of(sim);
   const State *s = &sim->s;
   int *queue = c->gravity->queue;
-  Walk w = {
-      c->tree,    c->x,     c->root,   s->x,           s->m,
-      s->h,       s->pull,  s->phi,    c->unit.length, c->unit.mass,
-      sim->par.G, INFINITY, (int)s->n, chunk_of(s->n), {(int2 *)c->scratch, queue, queue + 1}};
-  if (sim->par.theta > 0) w.over_theta = (float)(1 / sim->par.theta);
+  Walk w = {};
+  w.tree = c->tree, w.points = c->x, w.root = c->root;
+  w.x = s->x, w.m = s->m, w.h = s->h, w.pull = s->pull, w.phi = s->phi;
+  w.length = c->unit.length, w.mass = c->unit.mass, w.G = sim->par.G;
+  w.il = 1 / w.length, w.im = 1 / w.mass;
+  w.over_theta = sim->par.theta > 0 ? (float)(1 / sim->par.theta) : INFINITY;
+  w.n = (int)s->n, w.chunk = chunk_of(s->n);
+  w.queue = {(int2 *)c->scratch, queue, queue + 1};
   return w;
 }
 

@@ -5,6 +5,7 @@
 #define GRAVITY_PAIR_CUH
 
 #include <cuda_runtime.h>
+#include "../../physics/hd.h"
 
 #define INLINE static __device__ __forceinline__
 
@@ -17,8 +18,12 @@ template <class Real> struct Field {
   Real x, y, z, p;
 };
 
+INLINE float larger(float a, float b) { return fmaxf(a, b); }
+INLINE double larger(double a, double b) { return a > b ? a : b; }
+INLINE float inverse(float x) { return 1 / x; }
+INLINE double inverse(double x) { return hd_inverse(x); }
 INLINE float inverse_root(float x) { return rsqrtf(x); }
-INLINE double inverse_root(double x) { return rsqrt(x); }
+INLINE double inverse_root(double x) { return hd_inverse_root(x); }
 
 /* Squares of distances are at least this, so that coincident particles make no NaN: a distance of
  * 1e-12 of the unit. */
@@ -38,8 +43,8 @@ template <class Real> INLINE void pair_newton(Real dx, Real dy, Real dz, Real m,
  * The acceleration over d; *p: the potential. */
 template <class Real> INLINE Real pair_soft(Real dx, Real dy, Real dz, Real m, Real h, Real *p)
 {
-  const Real r2 = pair_square(dx, dy, dz), i1 = inverse_root(max(r2, h * h)), i2 = i1 * i1;
-  const Real q2 = r2 * i2, q = q2 * inverse_root(q2), mi = m * i1;
+  const Real r2 = pair_square(dx, dy, dz), r = r2 * inverse_root(r2), i1 = inverse(larger(r, h));
+  const Real q = r * i1, q2 = q * q, i2 = i1 * i1, mi = m * i1;
   const Real force = 14 + q2 * (-84 + q * (140 + q * (-90 + q * 21)));
   const Real potential = 3 + q2 * (-7 + q2 * (21 + q * (-28 + q * (15 - q * 3))));
   *p = -mi * potential;

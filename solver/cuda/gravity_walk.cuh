@@ -43,6 +43,7 @@ typedef struct {
   const double *x, *m, *h; /* State: double precision reads these, not the points */
   double *pull, *phi;      /* m/s^2, J/kg */
   double length, mass, G;  /* code units in SI; m^3/kg/s^2 */
+  double il, im;           /* 1/length, 1/mass: exact */
   float over_theta;
   int n, chunk; /* chunk: the most particles of a piece, a power of two, at most 32 */
   WalkQueue queue;
@@ -73,10 +74,10 @@ INLINE Four<float> walk_body(const Walk &w, int i, const float c[3], float *half
 
 INLINE Four<double> walk_body(const Walk &w, int i, const float c[3], double *half)
 {
-  const double *x = w.x + 3 * (int64_t)i, *o = w.root->origin, il = 1 / w.length;
+  const double *x = w.x + 3 * (int64_t)i, *o = w.root->origin, il = w.il;
   *half = 0.5 * il * w.h[i];
   return {(x[0] - o[0]) * il - c[0], (x[1] - o[1]) * il - c[1], (x[2] - o[2]) * il - c[2],
-          w.m[i] / w.mass};
+          w.m[i] * w.im};
 }
 
 /* walk_pole: multipole k from the centre. */
@@ -92,10 +93,10 @@ INLINE void walk_pole(const Walk &w, int k, const float o[3], Four<float> *a, Fo
 INLINE void walk_pole(const Walk &w, int k, const float o[3], Four<double> *a, Four<double> *b,
                       Four<double> *c)
 {
-  const double *p = w.tree.moment + 10 * (int64_t)k, *origin = w.root->origin, il = 1 / w.length,
-               im = 1 / w.mass, iq = im * il * il;
+  const double *p = w.tree.moment + 10 * (int64_t)k, *origin = w.root->origin, il = w.il,
+               iq = w.im * il * il;
   *a = {(p[1] - origin[0]) * il - o[0], (p[2] - origin[1]) * il - o[1],
-        (p[3] - origin[2]) * il - o[2], p[0] * im};
+        (p[3] - origin[2]) * il - o[2], p[0] * w.im};
   *b = {p[4] * iq, p[5] * iq, p[6] * iq, p[7] * iq}, *c = {p[8] * iq, p[9] * iq, 0, 0};
 }
 
@@ -165,12 +166,30 @@ INLINE void walk_begin(const Walk &w, int first, int count, WalkGroup<Real> *g)
   }
 }
 
+/* walk_open, walk_close: f is what 32 sources add up to. In single precision it joins the rest as a
+ * sum of its own, to round less; in double that would only take registers. */
+template <class Real> INLINE void walk_open(const WalkGroup<Real> *g, Field<Real> f[2])
+{
+  const int apart = sizeof(Real) == sizeof(float);
+  for (int t = 0; t < 2; t++) f[t] = apart ? Field<Real>{0, 0, 0, 0} : g->sum[t];
+}
+
+template <class Real> INLINE void walk_close(WalkGroup<Real> *g, const Field<Real> f[2])
+{
+  const int apart = sizeof(Real) == sizeof(float);
+  for (int t = 0; t < 2; t++) {
+    Field<Real> *s = g->sum + t;
+    *s = apart ? Field<Real>{s->x + f[t].x, s->y + f[t].y, s->z + f[t].z, s->p + f[t].p} : f[t];
+  }
+}
+
 /* walk_nodes: the multipoles node[0 .. take-1]. */
 template <class Real>
 INLINE void walk_nodes(const Walk &w, WalkShared<Real> *s, WalkGroup<Real> *g, int take)
 {
   const int lane = (int)threadIdx.x;
-  Field<Real> f[2] = {{0, 0, 0, 0}, {0, 0, 0, 0}};
+  Field<Real> f[2];
+  walk_open(g, f);
   if (lane < take) walk_pole(w, s->node[lane], g->centre, s->a + lane, s->b + lane, s->c + lane);
   __syncwarp();
 #pragma unroll 1
@@ -179,8 +198,7 @@ INLINE void walk_nodes(const Walk &w, WalkShared<Real> *s, WalkGroup<Real> *g, i
     for (int t = 0; t < 2; t++)
       pair_pole(a.x - g->at[t].x, a.y - g->at[t].y, a.z - g->at[t].z, a, b, c, f + t);
   }
-  for (int t = 0; t < 2; t++)
-    g->sum[t].x += f[t].x, g->sum[t].y += f[t].y, g->sum[t].z += f[t].z, g->sum[t].p += f[t].p;
+  walk_close(g, f);
   __syncwarp();
 }
 
@@ -190,7 +208,8 @@ INLINE void walk_bodies(const Walk &w, WalkShared<Real> *s, WalkGroup<Real> *g, 
 {
   const int lane = (int)threadIdx.x;
   const unsigned below = (1u << lane) - 1;
-  Field<Real> f[2] = {{0, 0, 0, 0}, {0, 0, 0, 0}};
+  Field<Real> f[2];
+  walk_open(g, f);
   Four<Real> a = {0, 0, 0, 0};
   Real half = 0;
   int near = 0;
@@ -222,8 +241,7 @@ INLINE void walk_bodies(const Walk &w, WalkShared<Real> *s, WalkGroup<Real> *g, 
     for (int t = 0; t < 2; t++)
       pair_newton(b.x - g->at[t].x, b.y - g->at[t].y, b.z - g->at[t].z, b.w, f + t);
   }
-  for (int t = 0; t < 2; t++)
-    g->sum[t].x += f[t].x, g->sum[t].y += f[t].y, g->sum[t].z += f[t].z, g->sum[t].p += f[t].p;
+  walk_close(g, f);
   __syncwarp();
 }
 
@@ -347,11 +365,10 @@ static __global__ void __launch_bounds__(128) walk_cut(const __grid_constant__ W
   if (ends) w.queue.piece[at] = make_int2(i + 1 - count, count);
 }
 
-/* walk_tree: one warp a block, as many as the card can have at work; 16 blocks (double: 12) or more
- * share a multiprocessor. */
+/* walk_tree: one warp a block, as many as the card can have at work; 16 blocks or more share a
+ * multiprocessor. */
 template <class Real>
-__global__ void __launch_bounds__(32, sizeof(Real) == 4 ? 16 : 12)
-    walk_tree(const __grid_constant__ Walk w)
+__global__ void __launch_bounds__(32, 16) walk_tree(const __grid_constant__ Walk w)
 {
   __shared__ WalkShared<Real> s;
   const int pieces = *w.queue.pieces;
