@@ -93,11 +93,12 @@ INLINE void walk_pole(const Walk &w, int k, const float o[3], Four<float> *a, Fo
 INLINE void walk_pole(const Walk &w, int k, const float o[3], Four<double> *a, Four<double> *b,
                       Four<double> *c)
 {
-  const double *p = w.tree.moment + 10 * (int64_t)k, *origin = w.root->origin, il = w.il,
-               iq = w.im * il * il;
-  *a = {(p[1] - origin[0]) * il - o[0], (p[2] - origin[1]) * il - o[1],
-        (p[3] - origin[2]) * il - o[2], p[0] * w.im};
-  *b = {p[4] * iq, p[5] * iq, p[6] * iq, p[7] * iq}, *c = {p[8] * iq, p[9] * iq, 0, 0};
+  const double2 *p = reinterpret_cast<const double2 *>(w.tree.moment) + 5 * (int64_t)k;
+  const double2 mx = p[0], yz = p[1], q0 = p[2], q2 = p[3], q4 = p[4];
+  const double *origin = w.root->origin, il = w.il, iq = w.im * il * il;
+  *a = {(mx.y - origin[0]) * il - o[0], (yz.x - origin[1]) * il - o[1],
+        (yz.y - origin[2]) * il - o[2], mx.x * w.im};
+  *b = {q0.x * iq, q0.y * iq, q2.x * iq, q2.y * iq}, *c = {q4.x * iq, q4.y * iq, 0, 0};
 }
 
 /* Squared distance of two boxes. */
