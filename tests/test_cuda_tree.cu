@@ -278,7 +278,7 @@ static void bad_particles_are_named(void **state)
   const double value[] = {NAN, 1e200, INFINITY, -1};
   Err err;
   for (int k = 0; k < 4; k++) {
-    double *State::*const array = k < 2 ? &State::x : k == 2 ? &State::y : &State::h;
+    const auto array = k < 2 ? &State::x : k == 2 ? &State::y : &State::h;
     const size_t width = k < 3 ? 3 : 1, part = k < 3 ? (size_t)(k + 1) % 3 : 0;
     double old = 0;
     int64_t id = -1;
