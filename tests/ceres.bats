@@ -4,7 +4,7 @@
 
 setup() {
   cd "$BATS_TEST_DIRNAME/.."
-  real=${BIN:-$PWD/bin}
+  real=$(dirname "$(command -v solver)")
   mock=$BATS_TEST_TMPDIR/bin OUT=$BATS_TEST_TMPDIR/out
   export CALLS=$BATS_TEST_TMPDIR/calls
   run_dir=$OUT/N100-s1/a48-v1.7
