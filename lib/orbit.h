@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Two bodies as points: conics of every kind, head-on ones included, by formulas that have one
- * branch, and the approach to a contact given by angle and speed. Sources:
- * docs/theory.md 7 (corrects 004 eq. 2.85-2.104); the time is Kepler's equation in
- * universal variables with Stumpff's c3 (Danby, Fundamentals of Celestial Mechanics, sect. 6.9). */
+ * branch, and the approach to a contact given by angle and speed or by a state. Without gravity
+ * (mu = 0) the same on straight lines. Sources: docs/theory.md 7 (corrects 004 eq. 2.85-2.104);
+ * universal variables with Stumpff's functions (Danby, Fundamentals of Celestial Mechanics,
+ * sect. 6.9). */
 #ifndef ORBIT_H
 #define ORBIT_H
 
@@ -11,18 +12,19 @@
 /* The relative orbit. beta = 2 mu/r - v^2 = mu/a = -v_inf^2: > 0 bound, 0 parabola, < 0 hyperbola.
  */
 typedef struct {
-  double mu;   /* G (m1 + m2) [m^3/s^2] */
-  double beta; /* [m^2/s^2] */
-  double h;    /* specific angular momentum [m^2/s] */
-  double e;    /* eccentricity; INFINITY without gravity */
-  double p;    /* semi-latus rectum h^2/mu [m] */
-  double rp;   /* periapsis [m] */
-  double ra;   /* apoapsis [m]; INFINITY when unbound */
-  double vinf; /* speed at infinity [m/s]; NAN when bound */
+  double mu;     /* G (m1 + m2) [m^3/s^2] */
+  double beta;   /* [m^2/s^2] */
+  double h;      /* specific angular momentum [m^2/s] */
+  double e;      /* eccentricity; INFINITY without gravity */
+  double p;      /* semi-latus rectum h^2/mu [m]; INFINITY without gravity */
+  double rp;     /* periapsis [m] */
+  double ra;     /* apoapsis [m]; INFINITY when unbound */
+  double vinf;   /* speed at infinity [m/s]; NAN when bound */
+  double period; /* [s]; INFINITY when unbound */
 } Orbit;
 
-/* An approach from the distance r0 to contact, which happens at t = 0 on the +y axis with L_z > 0.
- */
+/* An approach from the distance r0 to contact, which happens at t = 0. In the plane of the orbit
+ * contact is on +y and L_z > 0. */
 typedef struct {
   Orbit orbit;
   double rc, vc,
@@ -34,7 +36,7 @@ typedef struct {
   double t0;                 /* time of the start, <= 0 [s] */
 } OrbitApproach;
 
-/* orbit_of_state: the orbit through relative position r [m] and velocity v [m/s]; mu > 0, |r| > 0.
+/* orbit_of_state: the orbit through relative position r [m] and velocity v [m/s]; mu >= 0, |r| > 0.
  */
 Orbit orbit_of_state(double mu, const double r[3], const double v[3]);
 
@@ -46,7 +48,7 @@ double orbit_speed_at_contact(double mu, double rc, double vinf);
 double orbit_time(const Orbit *o, double r);
 
 /* orbit_anomaly: true anomaly at distance r with radial speed vr, in -pi..pi, negative inbound
- * [rad]. */
+ * [rad]; mu > 0. */
 double orbit_anomaly(const Orbit *o, double r, double vr);
 
 /* orbit_approach: fills *a for contact distance rc > 0, speed vc > 0, angle in 0..pi/2 and start
@@ -54,5 +56,17 @@ double orbit_anomaly(const Orbit *o, double r, double vr);
  * apoapsis, an orbit too round to approach on. */
 int orbit_approach(OrbitApproach *a, double mu, double rc, double vc, double angle, double r0,
                    Err *err);
+
+/* orbit_approach_time: the same with the time from start to contact [s] >= 0; when the orbit is
+ * bound, at most what it takes from the apoapsis. */
+int orbit_approach_time(OrbitApproach *a, double mu, double rc, double vc, double angle,
+                        double time, Err *err);
+
+/* orbit_approach_state: the approach that starts with relative position r [m] and velocity v [m/s],
+ * and where in space it ends: unit vectors to the point of contact and along the angular momentum
+ * (head-on: some direction across). The start may be outbound when the orbit is bound. Errors: as
+ * above; the points pass each other or move apart. */
+int orbit_approach_state(OrbitApproach *a, double mu, double rc, const double r[3],
+                         const double v[3], double contact[3], double pole[3], Err *err);
 
 #endif

@@ -10,6 +10,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 #include "../lib/orbit.h"
+#include "../lib/rng.h"
 
 static const double G = 6.67430e-11, DEG = 0.017453292519943295;
 
@@ -169,6 +170,89 @@ static void test_integration(void **state)
   check_by_integration(example + 2, 30, 0.75, 1.5);
 }
 
+/* A random approach: parabolic, hyperbolic up to 4 v_esc, bound (some from the apoapsis); head-on,
+ * grazing and between; small and large bodies; by distance and by time. */
+static OrbitApproach random_case(uint64_t seed)
+{
+  double u[6], mu, rc, speed, angle, share, longest;
+  OrbitApproach a;
+  Err err;
+  for (uint32_t k = 0; k < 6; k++) u[k] = rng_uniform(1, seed, k);
+  mu = G * pow(10, 10 + 15 * u[0]), rc = pow(10, 1 + 6 * u[1]);
+  angle = seed % 20 == 0 ? 0 : seed % 20 == 1 ? 89.9 * DEG : 89.9 * DEG * u[2];
+  speed = seed % 3 == 0 ? 1 : seed % 3 == 1 ? 1 + 3 * u[3] : 0.3 + 0.7 * u[3];
+  speed *= sqrt(2 * mu / rc);
+  share = u[5] < 0.2 ? 1 : u[4]; /* of the way back to the apoapsis, or to somewhere far */
+  assert_int_equal(orbit_approach(&a, mu, rc, speed, angle, rc, &err), 0);
+  longest = fmin(a.orbit.period / 2 - orbit_time(&a.orbit, rc), 300 * rc / speed);
+  if (seed % 2 ? orbit_approach_time(&a, mu, rc, speed, angle, share * longest, &err)
+               : orbit_approach(&a, mu, rc, speed, angle,
+                                rc + share * (fmin(a.orbit.ra, 50 * rc) - rc), &err))
+    fail_msg("case %d: %s", (int)seed, err.text);
+  if (seed % 2) near(-a.t0, share * longest, longest, 1e-12);
+  return a;
+}
+
+/* 200 of them, integrated by Newton's law in units of r_c and v_c over |t0|: contact at the right
+ * time, place, angle and speed to 1e-9. */
+static void test_random(void **state)
+{
+  double worst = 0;
+  (void)state;
+  for (uint64_t seed = 0; seed < 200; seed++) {
+    OrbitApproach a = random_case(seed);
+    double mu = a.orbit.mu / (a.rc * a.vc * a.vc), t = a.t0 * a.vc / a.rc;
+    double y[4] = {a.x[0] / a.rc, a.x[1] / a.rc, a.v[0] / a.vc, a.v[1] / a.vc}, r, v, vr, off[4];
+    gsl_odeiv2_system system = {newton, NULL, 4, &mu};
+    gsl_odeiv2_driver *driver =
+        gsl_odeiv2_driver_alloc_y_new(&system, gsl_odeiv2_step_rk8pd, -t / 1e3, 1e-14, 1e-14);
+    if (t < 0) assert_int_equal(gsl_odeiv2_driver_apply(driver, &t, 0, y), GSL_SUCCESS);
+    gsl_odeiv2_driver_free(driver);
+    r = hypot(y[0], y[1]), v = hypot(y[2], y[3]), vr = (y[0] * y[2] + y[1] * y[3]) / r;
+    off[0] = (r - 1) / vr; /* how late r passes r_c [r_c/v_c] */
+    off[1] = atan2(y[0] * y[3] - y[1] * y[2], -r * vr) - a.angle;
+    off[2] = v - 1;
+    off[3] = y[0] / r;
+    for (int k = 0; k < 4; k++) {
+      if (!(fabs(off[k]) < 1e-9)) fail_msg("case %d: %d off by %g", (int)seed, k, off[k]);
+      worst = fmax(worst, fabs(off[k]));
+    }
+  }
+  print_message("200 cases: contact to %.1e\n", worst);
+}
+
+/* The same orbits from their state somewhere in space: contact, direction and time come back. An
+ * outbound start on a bound orbit goes round by the apoapsis. */
+static void test_from_state(void **state)
+{
+  (void)state;
+  for (uint64_t seed = 0; seed < 200; seed++) {
+    OrbitApproach a = random_case(seed), b;
+    double m[3][3], r[3], v[3], to[3], pole[3];
+    Err err = {""};
+    if (a.r0 < a.rc * (1 + 1e-9)) continue;
+    rng_rotation(seed, m);
+    for (int back = 0; back <= (a.orbit.beta > 0 && a.angle > 0); back++) {
+      /* backwards in time from the mirrored start: the velocity's radial part changes its sign */
+      double e = a.r0, vr = back ? -a.vr0 : a.vr0;
+      for (int k = 0; k < 3; k++) {
+        double er = (m[k][0] * a.x[0] + m[k][1] * a.x[1]) / e,
+               et = (m[k][1] * a.x[0] - m[k][0] * a.x[1]) / e;
+        r[k] = a.r0 * er, v[k] = vr * er + a.vt0 * et;
+      }
+      if (orbit_approach_state(&b, a.orbit.mu, a.rc, r, v, to, pole, &err))
+        fail_msg("case %d: %s", (int)seed, err.text);
+      near(b.vc, a.vc, a.vc, 1e-9);
+      near(b.angle, a.angle, 1, 1e-7); /* asin near 90 deg, from r far away */
+      near(b.r0, a.r0, a.r0, 1e-9);
+      if (back) continue;
+      near(b.t0, a.t0, fabs(a.t0) + a.rc / a.vc, 1e-6);
+      for (int k = 0; k < 3; k++) near(to[k], m[k][1], 1, 1e-6);
+      for (int k = 0; k < 3 && a.angle > 0; k++) near(pole[k], m[k][2], 1, 1e-9);
+    }
+  }
+}
+
 /* Kepler's equation of the ellipse, and its half period from periapsis to apoapsis. */
 static void test_ellipse_time(void **state)
 {
@@ -185,7 +269,7 @@ static void test_ellipse_time(void **state)
 }
 
 /* Without gravity: a straight line at constant speed that passes +y at contact (004 eq. 2.86
- * corrected). */
+ * corrected); the same by the time, and from a state. */
 static void test_straight(void **state)
 {
   OrbitApproach a;
@@ -198,6 +282,17 @@ static void test_straight(void **state)
   near(a.v[0], -3 * sin(30 * DEG), 3, 1e-14);
   near(a.v[1], -3 * cos(30 * DEG), 3, 1e-14);
   near(a.t0, -(sqrt(100 - 1) - 2 * cos(30 * DEG)) / 3, 1, 1e-14);
+  assert_int_equal(orbit_approach_time(&a, 0, 2, 3, 30 * DEG, 7, &err), 0);
+  near(a.t0, -7, 7, 1e-15);
+  near(a.x[0], 3 * sin(30 * DEG) * 7, 20, 1e-14);
+  near(a.x[1], 2 + 3 * cos(30 * DEG) * 7, 20, 1e-14);
+  double r[3] = {0, 10, 1}, v[3] = {0, -5, 0}, to[3], pole[3];
+  assert_int_equal(orbit_approach_state(&a, 0, 2, r, v, to, pole, &err), 0);
+  near(a.angle / DEG, 30, 30, 1e-14);
+  near(a.t0, -(10 - sqrt(3)) / 5, 1, 1e-14);
+  near(to[1], sqrt(3) / 2, 1, 1e-14);
+  near(to[2], 0.5, 1, 1e-14);
+  near(pole[0], 1, 1, 1e-14); /* (0, 10, 1) x (0, -5, 0) = (5, 0, 0) */
 }
 
 static void refused(double angle, double speed, double r0, const char *word)
@@ -221,13 +316,41 @@ static void test_errors(void **state)
   refused(45, 1, INFINITY, "distance");
 }
 
+static void refused_state(double x, double y, double vx, double vy, const char *word)
+{
+  OrbitApproach a;
+  double r[3] = {x, y, 0}, v[3] = {vx, vy, 0}, to[3], pole[3];
+  Err err = {""};
+  assert_int_equal(orbit_approach_state(&a, 1, 1, r, v, to, pole, &err), -1);
+  if (!strstr(err.text, word)) fail_msg("'%s' does not say '%s'", err.text, word);
+}
+
+static void test_other_errors(void **state)
+{
+  OrbitApproach a;
+  Err err = {""};
+  (void)state;
+  /* v^2 = 1.8: a = 5, period 2 pi 5^1.5 = 70.2 */
+  assert_int_equal(orbit_approach_time(&a, 1, 1, sqrt(1.8), 0.1, 36, &err), -1);
+  assert_non_null(strstr(err.text, "apoapsis"));
+  assert_int_equal(orbit_approach_time(&a, 1, 1, 2, 0.1, -1, &err), -1);
+  assert_non_null(strstr(err.text, "negative"));
+  refused_state(0.5, 0, -1, 0, "overlap");
+  refused_state(3, 0, 2, 0, "move apart");
+  refused_state(3, 2, -3, 0, "pass each other");
+  refused_state(3, 0, 0, 0.577, "pass each other"); /* nearly a circle */
+  refused_state(3, NAN, 0, 1, "no orbit");
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_examples),    cmocka_unit_test(test_head_on),
-      cmocka_unit_test(test_regression),  cmocka_unit_test(test_state),
-      cmocka_unit_test(test_integration), cmocka_unit_test(test_ellipse_time),
-      cmocka_unit_test(test_straight),    cmocka_unit_test(test_errors),
+      cmocka_unit_test(test_examples),     cmocka_unit_test(test_head_on),
+      cmocka_unit_test(test_regression),   cmocka_unit_test(test_state),
+      cmocka_unit_test(test_integration),  cmocka_unit_test(test_ellipse_time),
+      cmocka_unit_test(test_straight),     cmocka_unit_test(test_errors),
+      cmocka_unit_test(test_random),       cmocka_unit_test(test_from_state),
+      cmocka_unit_test(test_other_errors),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
