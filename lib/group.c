@@ -57,6 +57,26 @@ static int by_mass(const void *a, const void *b)
   return p->first < q->first ? -1 : p->first > q->first;
 }
 
+int group_named(const Parts *p, const char *text, const char *file, const int32_t **id,
+                int32_t *which, Err *err)
+{
+  static const char *const words[] = {"body:", "fragment:", "clump:"};
+  static const char *const members[] = {"body", "frag", "clump"};
+  const int32_t *const ids[] = {p->body, p->frag, p->clump};
+  char *end;
+  int k = 0;
+  while (k < 3 && strncmp(text, words[k], strlen(words[k]))) k++;
+  if (k == 3) return err_set(err, "'%s' is none of body:N, fragment:N, clump:N", text);
+  long number = strtol(text + strlen(words[k]), &end, 10);
+  if (end == text + strlen(words[k]) || *end || number < 0 || number > INT32_MAX)
+    return err_set(err, "'%s' has no number", text);
+  if (part_need(p, members[k], file, err)) return -1;
+  *id = ids[k], *which = (int32_t)number;
+  for (long i = 0; i < p->n; i++)
+    if (ids[k][i] == *which) return 0;
+  return err_set(err, "'%s': nothing belongs to %s", file, text);
+}
+
 int group_order(const Parts *p, long *order, Err *err)
 {
   Key *key = malloc((size_t)(p->n + 1) * sizeof *key);

@@ -41,6 +41,12 @@ enum { GROUP_BODIES = 1024 };
 /* GROUP_FIELDS: what group_measure needs. */
 #define GROUP_FIELDS "id x v m rho u h mat body"
 
+/* group_named: the particles that "body:0", "fragment:2" or "clump:1" means: those with
+ * (*id)[i] == *which. Errors: another word, no number, the field is missing in `file`, none of them
+ * there. */
+int group_named(const Parts *p, const char *text, const char *file, const int32_t **id,
+                int32_t *which, Err *err);
+
 /* group_order: all particles by ascending id, order [n]. */
 int group_order(const Parts *p, long *order, Err *err);
 

@@ -217,6 +217,22 @@ int unit_parse(const char *text, const char *kind, double *si, Err *err)
   return 0;
 }
 
+int unit_list(const char *text, const char *kind, int n, double *si, Err *err)
+{
+  char part[LONGEST];
+  const char *at = text;
+  for (int k = 0; k < n; k++) {
+    size_t length = strcspn(at, ",");
+    if ((at[length] == ',') != (k < n - 1))
+      return err_set(err, "'%s': %d numbers between commas are wanted", text, n);
+    if (length >= sizeof part) return err_set(err, "'%s' is too long", at);
+    snprintf(part, sizeof part, "%.*s", (int)length, at);
+    if (unit_parse(part, kind, si + k, err)) return -1;
+    at += length + 1;
+  }
+  return 0;
+}
+
 int unit_count(const char *text, long *count, Err *err)
 {
   static const struct {

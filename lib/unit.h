@@ -16,6 +16,9 @@
  * products are understood. Returns 0 or -1. */
 int unit_parse(const char *text, const char *kind, double *si, Err *err);
 
+/* unit_list: "X,Y,Z": n quantities of one kind, separated by commas. Returns 0 or -1. */
+int unit_list(const char *text, const char *kind, int n, double *si, Err *err);
+
 /* unit_count: a whole number: 20000, 2e4, 20k, 1M. Exact up to 2^53. Returns 0 or -1. */
 int unit_count(const char *text, long *count, Err *err);
 

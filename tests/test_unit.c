@@ -194,12 +194,24 @@ static void readable(void **state)
   }
 }
 
+/* Vectors: as many numbers as wanted, each a quantity of the kind. */
+static void lists(void **state)
+{
+  double x[3] = {0};
+  Err err = {""};
+  (void)state;
+  assert_int_equal(unit_list("1km,-2,3e2cm", "m", 3, x, &err), 0);
+  assert_true(x[0] == 1000 && x[1] == -2 && x[2] == 3);
+  const char *const wrong[] = {"", "1,2", "1,2,3,4", "1,,3", "1,2,3s", "1,2,x", "1 2 3"};
+  for (int k = 0; k < N(wrong); k++) assert_int_equal(unit_list(wrong[k], "m", 3, x, &err), -1);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(values),   cmocka_unit_test(refused), cmocka_unit_test(kinds_do_not_mix),
       cmocka_unit_test(suffix),   cmocka_unit_test(nearest), cmocka_unit_test(choice),
-      cmocka_unit_test(readable),
+      cmocka_unit_test(readable), cmocka_unit_test(lists),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,6 +4,7 @@
 #include <string.h>
 #include <gsl/gsl_sort.h>
 #include "camera.h"
+#include "lib/group.h"
 #include "lib/unit.h"
 
 #define MARGIN 1.2
@@ -13,22 +14,6 @@ void camera_plane(Camera *c, const char *plane)
   c->right = plane[0] - 'x', c->up = plane[1] - 'x';
   c->out = 3 - c->right - c->up;
   c->sign = c->out == 1 ? -1 : 1; /* right x up */
-}
-
-/* X,Y,Z: lengths with units. */
-static int coordinates(double x[3], const char *text, Err *err)
-{
-  const char *whole = text;
-  char word[64];
-  for (int a = 0; a < 3; a++) {
-    size_t n = strcspn(text, ",");
-    if (n >= sizeof word || (a < 2) != (text[n] == ','))
-      return err_set(err, "--centre: '%s' is not three lengths", whole);
-    memcpy(word, text, n), word[n] = 0;
-    if (unit_parse(word, "m", &x[a], err)) return -1;
-    text += n + (a < 2);
-  }
-  return 0;
 }
 
 static int centre_of(double x[3], const Parts *p, const int32_t *id, long wanted)
@@ -45,23 +30,15 @@ static int centre_of(double x[3], const Parts *p, const int32_t *id, long wanted
 
 int camera_centre(Camera *c, const Parts *p, const char *text, const char *file, Err *err)
 {
-  static const char *const words[] = {"body:", "fragment:", "clump:"}, *const members[] = {
-                                                                           "body", "frag", "clump"};
-  const int32_t *const ids[] = {p->body, p->frag, p->clump};
+  const int32_t *id;
+  int32_t wanted;
+  Err why;
   if (!strcmp(text, "com"))
     return centre_of(c->centre, p, NULL, 0) ? err_set(err, "'%s': no particles", file) : 0;
-  for (int k = 0; k < 3; k++) {
-    size_t n = strlen(words[k]);
-    if (strncmp(text, words[k], n)) continue;
-    char *end;
-    long wanted = strtol(text + n, &end, 10);
-    if (end == text + n || *end) return err_set(err, "--centre: '%s' has no number", text);
-    if (part_need(p, members[k], file, err)) return -1;
-    return centre_of(c->centre, p, ids[k], wanted)
-               ? err_set(err, "'%s': nothing belongs to %s", file, text)
-               : 0;
-  }
-  return coordinates(c->centre, text, err);
+  if (!strchr(text, ':') ? unit_list(text, "m", 3, c->centre, &why)
+                         : group_named(p, text, file, &id, &wanted, &why))
+    return err_set(err, "--centre: %s", why.text);
+  return strchr(text, ':') ? centre_of(c->centre, p, id, wanted) : 0;
 }
 
 double camera_extent(const Camera *c, const Parts *p)
