@@ -502,6 +502,16 @@ static int same_kind(const PartExtra *x, const PartExtra *y)
          !strcmp(x->unit, y->unit);
 }
 
+/* n rows of what a particle without the field has: zeros, but a distention of 1. */
+static void fill_absent(void *rows, long n, const char *name, hid_t type, int size)
+{
+  double one[2] = {1, 0}; /* the largest type is twice as long */
+  if (strcmp(name, "Distention") || size > (int)sizeof one ||
+      H5Tconvert(H5T_NATIVE_DOUBLE, type, 1, one, NULL, H5P_DEFAULT) < 0)
+    return;
+  for (long i = 0; i < n; i++) memcpy((char *)rows + i * size, one, (size_t)size);
+}
+
 static int join_extra(Parts *q, const Parts *a, const Parts *b, const char *name, Err *err)
 {
   const PartExtra *x = find_extra(a, name), *y = find_extra(b, name);
@@ -511,6 +521,8 @@ static int join_extra(Parts *q, const Parts *a, const Parts *b, const char *name
   if (!z) return no_memory(err);
   append(z->data, x ? x->data : NULL, y ? y->data : NULL, (size_t)a->n * (size_t)z->size,
          (size_t)b->n * (size_t)z->size);
+  if (!x) fill_absent(z->data, a->n, name, (hid_t)z->type, z->size);
+  if (!y) fill_absent(z->data + a->n * z->size, b->n, name, (hid_t)z->type, z->size);
   return 0;
 }
 
@@ -536,6 +548,10 @@ static int join_rows(Parts *q, const Parts *a, const Parts *b, Err *err)
     if (part_add(q, f->member, err)) return -1;
     append(part_array(q, f), part_array(a, f), part_array(b, f), (size_t)a->n * (size_t)f->size,
            (size_t)b->n * (size_t)f->size);
+    char *rows = part_array(q, f);
+    if (!part_array(a, f)) fill_absent(rows, a->n, f->name, H5T_NATIVE_DOUBLE, f->size);
+    if (!part_array(b, f))
+      fill_absent(rows + a->n * f->size, b->n, f->name, H5T_NATIVE_DOUBLE, f->size);
   }
   for (int k = 0; k < a->extras; k++)
     if (join_extra(q, a, b, a->extra[k].name, err)) return -1;

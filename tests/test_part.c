@@ -300,6 +300,28 @@ static void join_fills_what_one_lacks_with_zeros(void **state)
   }
 }
 
+/* Matter without the field has no pores: its distention is 1, whichever of the two lacks it. */
+static void join_knows_what_has_no_pores(void **state)
+{
+  (void)state;
+  Err err;
+  for (int swap = 0; swap < 2; swap++) {
+    Parts *porous = part_new(2), *solid = part_new(3);
+    part_add(porous, "id x", &err), part_add(solid, "id x", &err);
+    for (int i = 0; i < 3; i++) solid->id[i] = 50 + i, porous->id[i % 2] = i % 2;
+    porous->extra = calloc(1, sizeof *porous->extra), porous->extras = 1;
+    *porous->extra = (PartExtra){.name = "Distention", .rank = 1, .width = 1, .size = 4};
+    porous->extra->type = H5Tcopy(H5T_NATIVE_FLOAT);
+    porous->extra->data = calloc(2, 4);
+    memcpy(porous->extra->data, (float[2]){1.5f, 2}, 8);
+    Parts *q = swap ? part_join(solid, porous, &err) : part_join(porous, solid, &err);
+    assert_non_null(q);
+    const float want[2][5] = {{1.5f, 2, 1, 1, 1}, {1, 1, 1, 1.5f, 2}};
+    assert_memory_equal(q->extra->data, want[swap], sizeof want[swap]);
+    part_free(porous), part_free(solid), part_free(q);
+  }
+}
+
 /* The material a particle is made of does not change, whatever its index becomes. */
 static void join_keeps_each_particle_its_material(void **state)
 {
@@ -411,6 +433,7 @@ int main(void)
       cmocka_unit_test(permute_moves_rows_whole),
       cmocka_unit_test(join_is_a_then_b),
       cmocka_unit_test(join_fills_what_one_lacks_with_zeros),
+      cmocka_unit_test(join_knows_what_has_no_pores),
       cmocka_unit_test(join_keeps_each_particle_its_material),
       cmocka_unit_test(join_refuses_what_does_not_fit),
       cmocka_unit_test(join_keeps_names_of_both),
