@@ -238,7 +238,7 @@ int orbit_approach_state(OrbitApproach *a, double mu, double rc, const double r[
 {
   Orbit o = orbit_of_state(mu, r, v);
   double d = sqrt(dot(r, r)), vr = dot(r, v) / d, v2 = 2 * mu / rc - o.beta, vt = o.h / rc, sc;
-  if (!(mu >= 0 && rc > 0 && d > 0 && isfinite(d) && isfinite(o.h)))
+  if (!(mu >= 0 && rc > 0 && isfinite(d) && isfinite(dot(v, v))))
     return err_set(err, "the state is no orbit");
   if (!(d >= rc))
     return err_set(

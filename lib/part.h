@@ -112,11 +112,11 @@ Parts *part_select(const Parts *p, const unsigned char *keep, Err *err);
 int part_permute(Parts *p, const long *order, Err *err);
 
 /* part_join: a followed by b (for collide). Fields that only one of them has are filled with zeros
- * in the other (Distention: ones), unknown fields too; materials of the same name and text are merged and mat of b
- * renumbered. Ids of b that occur in a are an error, as are unequal dimensions and unknown fields
- * of the same name but another shape, type or unit. Time and named numbers are a's; numbers that
- * only b has are added, so rename Radius0 of b before. History and parameters of b follow those of
- * a. */
+ * in the other (Distention: ones), unknown fields too; materials of the same name and text are
+ * merged and mat of b renumbered. Ids of b that occur in a are an error, as are unequal dimensions
+ * and unknown fields of the same name but another shape, type or unit. Time and named numbers are
+ * a's; numbers that only b has are added, so rename Radius0 of b before. History and parameters of
+ * b follow those of a. */
 Parts *part_join(const Parts *a, const Parts *b, Err *err);
 
 /* part_history: appends a command line. part_set_number / part_number: named numbers in /Collision
