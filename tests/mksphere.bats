@@ -90,15 +90,56 @@ setup() { cd "$BATS_TEST_TMPDIR"; }
   [ "$(field b.h5 InternalEnergy | uniq)" = 200000 ]
 }
 
+@test "hydrostatic bodies: the core's share from mass and radius; temperatures; every placing has the exact masses" {
+  for how in hcp cubic stretched shells; do
+    mksphere -n 1500 --mass 5e24kg --radius 6200km --layer iron --layer granite -T 300K --hydrostatic --lattice $how -o b.h5 2>said
+    true_that 'near(r, 6.2e6, 1e-8) && near(a + b, 5e24, 1e-9) && a > 5e23 && a < 1e24' r="$(number b.h5 /Body/Radius0)" \
+      a="$(number b.h5 /Body/Layer1Mass0)" b="$(number b.h5 /Body/Layer2Mass0)"
+    paste <(field b.h5 MaterialID) <(field b.h5 Masses) <(field b.h5 Coordinates 3) <(field b.h5 Pressure) |
+      awk -v a="$(number b.h5 /Body/Layer1Mass0)" '{ m[$1] += $2; r = sqrt($3^2 + $4^2 + $5^2); if (r < 1.5e6 && $6 < 1e11) exit 2 }
+        END { q = m[0]/a - 1; exit !(q < 1e-12 && q > -1e-12) }'
+    grep -q 'SPH density off by' said
+  done
+  mksphere -n 1500 --mass 5e24kg --layer iron:0.4:T=2000K --layer granite:2000km:u=0 2>&1 | grep -q 'give fewer'
+}
+
+@test "a profile in a file: text and HDF5 give the particles that the recipe gives" {
+  body="-n 1000 --mass 1e23kg --layer iron:0.2 --layer ice:0.8"
+  mksphere $body -o raw.h5 && relax --profile p.h5 --profile-only raw.h5 >p.tsv
+  mksphere $body --hydrostatic -o a.h5
+  for p in p.tsv p.h5; do
+    mksphere -n 1000 --profile $p -o b.h5
+    paste <(field a.h5 Coordinates) <(field b.h5 Coordinates) <(field a.h5 SmoothingLength 1 | sed 'p;p') |
+      awk '{ d = $1 - $2; if (d > 1e-6*$3 || d < -1e-6*$3) exit 1 }'
+    true_that 'near(a, b, 1e-10)' a="$(number a.h5 /Body/Layer1Mass0)" b="$(number b.h5 /Body/Layer1Mass0)"
+  done
+  sed '8s/\t[^\t]*/\tx/2' p.tsv >q.tsv
+  bad 1 "q.tsv:8: column 3 is not a number" mksphere -p q.tsv
+  sed '9h;10{p;x}' p.tsv >q.tsv
+  bad 1 "r and m must rise" mksphere -p q.tsv
+  grep -v '^#' p.tsv | sed 5d | head -50 >bare.tsv
+  bad 2 "does not name the materials" mksphere -p bare.tsv
+}
+
 @test "every mistake is one line" {
+  printf 'name = "cold"; eos = { form = "liquid"; rho0 = 1000; c = 1500; };' >cold.cfg
   bad 2 "either --mass or --radius" mksphere --layer ice
-  bad 2 "either --mass or --radius" mksphere --layer ice --mass 1 --radius 1
+  bad 2 "2 of mass, radius and layers' shares given for 1 layer: give fewer" mksphere --layer ice --mass 1 --radius 1
+  bad 2 "--equal mass needs --lattice stretched or shells" mksphere --layer ice --mass 1 --equal mass
+  bad 2 "'hex'" mksphere --layer ice --mass 1 --lattice hex
+  bad 2 "one of --energy, --entropy and --temperature" mksphere --layer ice --mass 1 -u 3 -T 5
+  bad 2 "--profile says mass" mksphere -p p.tsv --mass 1
+  bad 2 "shells need 3 dimensions" mksphere -d 2 --mass 1 --layer ice --lattice shells
+  bad 2 "hydrostatic body has 3 dimensions" mksphere -d 2 --mass 1 --layer ice --hydrostatic
+  bad 1 "no body of these layers" mksphere --layer iron --layer ice --mass 1e24 --radius 2e7 --hydrostatic
+  bad 1 "cannot open 'no.tsv'" mksphere -p no.tsv
+  bad 1 "heat_capacity" mksphere --layer ./cold.cfg --mass 1 -T 5
   bad 2 "which material" mksphere --mass 1
   bad 2 "not positive" mksphere --mass -1 --layer ice
   bad 2 "not positive" mksphere --radius 0 --layer ice
   bad 2 "sum to 0.9, not to 1" mksphere --mass 1 --layer ice:0.5 --layer basalt:0.4
   bad 2 "sum to 1.00000001, not to 1" mksphere --mass 1 --layer ice:0.50000001 --layer basalt:0.5
-  bad 2 "no mass fraction" mksphere --mass 1 --layer ice --layer basalt:0.5
+  bad 2 "1 of mass, radius and layers' shares given for 2 layers: give more" mksphere --mass 1 --layer ice --layer basalt
   bad 2 "not positive" mksphere --mass 1 --layer ice:0 --layer basalt:1
   bad 1 "unknown material 'icy' (did you mean 'ice'?)" mksphere --mass 1 --layer icy
   bad 2 "'furlong" mksphere --radius 3furlong --layer ice

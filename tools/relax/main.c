@@ -10,9 +10,10 @@
 #include "../../lib/lay.h"
 #include "../../lib/material.h"
 #include "../../lib/opt.h"
+#include "../../lib/profile.h"
 #include "../../lib/progress.h"
+#include "../../lib/recipe.h"
 #include "../../lib/snap.h"
-#include "../../lib/spool.h"
 #include "../../lib/unit.h"
 #include "../../solver/sim.h"
 #include "measure.h"
@@ -54,55 +55,44 @@ static const OptProgram program = {
 
 typedef struct {
   Parts *p;
+  StructureBody body;
   Structure s;
   Material *material;
   int *layer;                       /* [n] of each particle */
   double free_fall, sound, spacing; /* s, s, m */
 } Body;
 
-static void print_profile(const Structure *s, FILE *f)
+static int write_profile(const Body *b, const char *path, Err *err)
 {
-  fprintf(f, "# r[m]\tm[kg]\trho[kg/m^3]\tp[Pa]\tu[J/kg]\tg[m/s^2]\tcs[m/s]\tlayer\n");
-  for (long k = 0; k < s->n; k++) {
-    const StructureNode *n = &s->node[k];
-    fprintf(f, "%.12g\t%.12g\t%.12g\t%.12g\t%.12g\t%.12g\t%.12g\t%d\n", n->r, n->m, n->rho, n->p,
-            n->u, n->g, n->cs, n->layer + 1);
+  const char *names[STRUCTURE_LAYERS], *texts[STRUCTURE_LAYERS];
+  for (int k = 0; k < b->body.layers; k++) {
+    names[k] = b->p->material[b->body.layer[k].mat].name;
+    texts[k] = b->p->material[b->body.layer[k].mat].text;
   }
-}
-
-static int write_profile(const Structure *s, const char *path, Err *err)
-{
-  Spool out;
-  FILE *f;
-  int bad;
-  if (spool_out(&out, path, 0, err)) return -1;
-  if (!(f = fopen(out.path, "w")))
-    return spool_abort(&out), err_set(err, "cannot write '%s'", path);
-  print_profile(s, f);
-  bad = ferror(f);
-  if (fclose(f) || bad) return spool_abort(&out), err_set(err, "cannot write '%s'", path);
-  return spool_commit(&out, err);
+  return profile_write(path, &b->s, &b->body, names, texts, err);
 }
 
 /* Reads the body, solves its structure and lays it on the particles. */
 static int prepare(Body *b, const char *path, Err *err)
 {
-  StructureBody body;
+  StructureBody *body = &b->body, recipe;
   const StructureNode *top;
+  int layers;
   if (!(b->p = snap_read(path, err))) return -1;
   if (part_need(b->p, SIM_FIELDS, path ? path : "stdin", err)) return -1;
   if (part_check(b->p, path ? path : "stdin", err)) return -1;
   if (!(b->material = material_load(b->p, err))) return -1;
   if (!(b->layer = malloc(sizeof *b->layer * (size_t)(b->p->n ? b->p->n : 1))))
     return err_set(err, "not enough memory");
-  if (lay_layers(b->p, b->material, &body, b->layer, err) < 0 ||
-      structure_solve(&b->s, &body, o.nodes, err))
-    return -1;
+  if (lay_layers(b->p, b->material, body, b->layer, err) < 0) return -1;
+  if ((layers = recipe_load(b->p, b->material, &recipe, err)) < 0) return -1;
+  if (layers == body->layers) *body = recipe;
+  if (structure_solve(&b->s, body, o.nodes, err)) return -1;
   top = &b->s.node[b->s.n - 1];
   b->free_fall = sqrt(acos(-1) * acos(-1) * pow(top->r, 3) / (8 * UNIT_G * top->m));
   b->sound = top->r / b->s.node[0].cs;
   b->spacing = cbrt(4. / 3 * acos(-1) * pow(top->r, 3) / (double)b->p->n * sqrt(2));
-  if (o.profile && write_profile(&b->s, o.profile, err)) return -1;
+  if (o.profile && write_profile(b, o.profile, err)) return -1;
   return o.only ? 0 : lay_body(b->p, b->material, &b->s, err);
 }
 
@@ -246,10 +236,9 @@ int main(int argc, char **argv)
   if (!isnan(o.max_time) && !(o.max_time > 0)) err_usage("--max-time must be positive");
   settings(0, 1);
   if (prepare(&b, n ? inputs[0] : NULL, &err)) err_die("%s", err.text);
-  if (o.only)
-    print_profile(&b.s, stdout);
-  else if (relax(&b, &err) || part_history(b.p, command, &err) ||
-           snap_write(b.p, o.output, 0, &err))
+  if (o.only ? write_profile(&b, "-", &err) : 0) err_die("%s", err.text);
+  if (!o.only &&
+      (relax(&b, &err) || part_history(b.p, command, &err) || snap_write(b.p, o.output, 0, &err)))
     err_die("%s", err.text);
   part_free(b.p);
   structure_free(&b.s);
