@@ -8,6 +8,7 @@
 #include <hdf5.h>
 
 #include "part.h"
+#include "sort.h"
 
 #define KIND(TYPE) _Generic((TYPE)0, double : 'd', int64_t : 'l', int32_t : 'i')
 /* clang-format off */
@@ -192,33 +193,20 @@ static int check_flaws(const Parts *p, const char *file, Err *err)
   return check_thresholds(p, file, err);
 }
 
-static int by_value(const void *a, const void *b)
-{
-  int64_t x = *(const int64_t *)a, y = *(const int64_t *)b;
-  return (x > y) - (x < y);
-}
-
-/* The ids of a and of b (may be NULL) in one ascending array. */
-static int64_t *sorted_ids(const Parts *a, const Parts *b)
-{
-  long n = a->n + (b ? b->n : 0);
-  int64_t *id = allocate(n, sizeof *id);
-  if (!id) return NULL;
-  memcpy(id, a->id, (size_t)a->n * sizeof *id);
-  if (b) memcpy(id + a->n, b->id, (size_t)b->n * sizeof *id);
-  qsort(id, (size_t)n, sizeof *id, by_value);
-  return id;
-}
-
-/* An id that occurs twice, into *twice; 1 when there is one, -1 without memory. */
+/* An id that occurs twice in a and b (may be NULL), into *twice; 1 when there is one, -1 without
+ * memory. */
 static int repeated_id(const Parts *a, const Parts *b, int64_t *twice)
 {
-  int64_t *id = sorted_ids(a, b);
-  if (!id) return -1;
-  int found = 0;
-  for (long i = 1, n = a->n + (b ? b->n : 0); i < n && !found; i++)
-    if (id[i] == id[i - 1]) *twice = id[i], found = 1;
-  free(id);
+  const long n = a->n + (b ? b->n : 0);
+  int64_t *id = allocate(n, sizeof *id);
+  long *order = allocate(n, sizeof *order);
+  int found = id && order ? 0 : -1;
+  if (!found) memcpy(id, a->id, (size_t)a->n * sizeof *id);
+  if (!found && b) memcpy(id + a->n, b->id, (size_t)b->n * sizeof *id);
+  if (!found) found = sort_ids(n, id, order);
+  for (long k = 1; k < n && !found; k++)
+    if (id[order[k]] == id[order[k - 1]]) *twice = id[order[k]], found = 1;
+  free(id), free(order);
   return found;
 }
 

@@ -7,20 +7,15 @@
 #include <string.h>
 #include "hilbert.h"
 #include "rng.h"
+#include "sort.h"
 #include "tree.h"
 
-enum { BLOCK = 256 };
-static const double FAR = 1e150; /* squares of coordinates must stay finite */
+enum { BLOCK = 256, SERIAL = 4096 }; /* SERIAL: fewer particles are not worth a second thread */
+static const double FAR = 1e150;     /* squares of coordinates must stay finite */
 
 typedef struct {
   double lo[3], edge;
 } Cube;
-
-typedef struct {
-  uint64_t key;
-  int64_t id;
-  long i;
-} Item;
 
 static void hilbert_block(uint32_t c[3][BLOCK], int n, uint64_t *key)
 {
@@ -33,7 +28,7 @@ static void hilbert_block(uint32_t c[3][BLOCK], int n, uint64_t *key)
 static void hilbert_keys(const Cube *cube, long n, const double *x, uint64_t *key)
 {
   const double scale = (1 << TREE_LEVELS) / cube->edge;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (n > SERIAL)
   for (long b = 0; b < n; b += BLOCK) {
     uint32_t c[3][BLOCK];
     int m = (int)(n - b < BLOCK ? n - b : BLOCK);
@@ -64,11 +59,38 @@ static long find_cube(long n, const double *x, uint64_t shift, Cube *cube)
   return bad < 3 * n ? -1 - bad : 0;
 }
 
-static int compare(const void *a, const void *b)
+/* Particles of equal keys, first .. end-1 of the order, by id: insertion, for there are few. */
+static void by_id(const int64_t *id, long *order, long first, long end)
 {
-  const Item *s = a, *t = b;
-  if (s->key != t->key) return s->key < t->key ? -1 : 1;
-  return (s->id > t->id) - (s->id < t->id);
+  for (long k = first + 1; k < end; k++) {
+    const long i = order[k];
+    long at = k;
+    for (; at > first && id[order[at - 1]] > id[i]; at--) order[at] = order[at - 1];
+    order[at] = i;
+  }
+}
+
+/* The order of id within runs of equal keys. A long run is sorted, as a whole tree in one place may
+ * be. */
+static int break_ties(long n, const uint64_t *key, const int64_t *id, long *order)
+{
+  enum { FEW = 64 };
+  for (long b = 0, e; b < n; b = e) {
+    for (e = b + 1; e < n && key[order[e]] == key[order[b]];) e++;
+    if (e - b <= FEW) {
+      by_id(id, order, b, e);
+      continue;
+    }
+    int64_t *own = malloc((size_t)(e - b) * sizeof *own);
+    long *old = malloc((size_t)(e - b) * sizeof *old), *by = malloc((size_t)(e - b) * sizeof *by);
+    int failed = !own || !old || !by;
+    for (long k = b; k < e && !failed; k++) old[k - b] = order[k], own[k - b] = id[order[k]];
+    if (!failed) failed = sort_ids(e - b, own, by) != 0;
+    for (long k = b; k < e && !failed; k++) order[k] = old[by[k - b]];
+    free(own), free(old), free(by);
+    if (failed) return -1;
+  }
+  return 0;
 }
 
 int tree_order(long n, const double *x, const int64_t *id, uint64_t shift, long *order, Err *err)
@@ -81,17 +103,10 @@ int tree_order(long n, const double *x, const int64_t *id, uint64_t shift, long 
                    (long long)(id ? id[bad / 3] : bad / 3), x[bad]);
   }
   uint64_t *key = malloc((size_t)n * sizeof *key + 1);
-  Item *item = malloc((size_t)n * sizeof *item + 1);
-  if (!key || !item) {
-    free(key), free(item);
-    return err_set(err, "cannot sort %ld particles: no memory", n);
-  }
-  hilbert_keys(&cube, n, x, key);
-  for (long i = 0; i < n; i++) item[i] = (Item){key[i], id ? id[i] : i, i};
-  qsort(item, (size_t)n, sizeof *item, compare);
-  for (long i = 0; i < n; i++) order[i] = item[i].i;
-  free(key), free(item);
-  return 0;
+  if (key) hilbert_keys(&cube, n, x, key);
+  int failed = !key || sort_keys(n, key, order) || (id && break_ties(n, key, id, order));
+  free(key);
+  return failed ? err_set(err, "cannot sort %ld particles: no memory", n) : 0;
 }
 
 static int new_node(Tree *t)
@@ -280,14 +295,14 @@ static void set_group(TreeGroup *g, const double *x, const double *h)
 
 void tree_refit(Tree *t, const double *x, const double *m, const double *h)
 {
-#pragma omp parallel for schedule(static, 64)
+#pragma omp parallel for schedule(static, 64) if (t->n > SERIAL)
   for (int32_t k = 0; k < t->nodes; k++)
     if (t->node[k].leaf) sum_leaf(t->node + k, x, m, h);
   for (int32_t k = t->nodes; k-- > 0;)
     if (!t->node[k].leaf) sum_children(t->node, k);
-#pragma omp parallel for schedule(static, 64)
+#pragma omp parallel for schedule(static, 64) if (t->n > SERIAL)
   for (int32_t k = 0; k < t->nodes; k++) set_size(t, t->node + k), set_walk(t, k);
-#pragma omp parallel for schedule(static, 64)
+#pragma omp parallel for schedule(static, 64) if (t->n > SERIAL)
   for (int32_t k = 0; k < t->groups; k++) set_group(t->group + k, x, h);
 }
 
