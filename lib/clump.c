@@ -5,112 +5,123 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <gsl/gsl_sort.h>
 #include "clump.h"
 #include "fof.h"
 #include "group.h"
+#include "potential.h"
+#include "sort.h"
 #include "unit.h"
 
-enum { ROUNDS = 100 };
+/* LARGE: sets that are worth all threads; smaller ones are worked on side by side. */
+enum { ROUNDS = 100, LARGE = 20000 };
 /* Mass fraction of a fragment that starts a body, and of a body that carries its frame. */
 #define CORE 0.1
 
-/* Candidates, by ascending particle id, and who of them is a member. */
+/* Candidates, who of them is a member, and copies of what is asked of them again and again. */
 typedef struct {
   const Parts *p;
   const ClumpOptions *o;
-  long n, *list;
+  long n, *list, *order;
+  double *x, *v, *m, *heat; /* [n][3] m, m/s; kg; J/kg against the potential, without v^2/2 */
+  double *phi, *key;        /* J/kg; scratch */
   unsigned char *in, *next, *before;
-  double *phi, *key; /* J/kg; scratch */
-  size_t *order;
+  double frame[3]; /* m/s, of the last judgement */
+  int fresh;       /* phi is that of the members */
+  Potential pot;
 } Work;
 
-static void work_free(Work *w)
+static int no_memory(long n, Err *err)
 {
-  free(w->list), free(w->in), free(w->next), free(w->before), free(w->phi), free(w->key),
-      free(w->order);
+  return err_set(err, "out of memory for %ld particles", n);
 }
 
-static int work_room(Work *w, const Parts *p, const ClumpOptions *o, Err *err)
-{
-  size_t room = (size_t)p->n + 1;
-  *w = (Work){.p = p,
-              .o = o,
-              .list = malloc(room * sizeof *w->list),
-              .in = malloc(room),
-              .next = malloc(room)};
-  w->before = malloc(room), w->phi = malloc(room * sizeof *w->phi),
-  w->key = malloc(room * sizeof *w->key);
-  w->order = malloc(room * sizeof *w->order);
-  if (w->list && w->in && w->next && w->before && w->phi && w->key && w->order) return 0;
-  return err_set(err, "out of memory for %ld particles", p->n);
-}
-
-/* What counts against the potential, without v^2/2 [J/kg]. */
 static double heat(const Parts *p, long i, ClumpLevel level)
 {
   double e = level >= CLUMP_THERMAL ? p->u[i] : 0;
   return level >= CLUMP_ENTHALPY ? e + fmax(0, p->p[i]) / p->rho[i] : e;
 }
 
-static double speed2(const Parts *p, long i, const double v[3])
+static double speed2(const double *a, const double *b)
 {
-  double x = p->v[3 * i] - v[0], y = p->v[3 * i + 1] - v[1], z = p->v[3 * i + 2] - v[2];
+  double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
   return x * x + y * y + z * z;
 }
 
-/* Velocity of the members with the lowest potential, a tenth of the mass. Equal potentials: the
- * lower id first. */
-static void frame(Work *w, const unsigned char *in, double v[3])
+static void work_close(Work *w)
+{
+  free(w->list), free(w->x), free(w->in), free(w->next), free(w->before);
+  potential_close(&w->pot);
+}
+
+static int work_open(Work *w, const Parts *p, const ClumpOptions *o, const long *list, long n,
+                     Err *err)
+{
+  const size_t room = (size_t)n + 1;
+  *w = (Work){.p = p, .o = o, .n = n, .list = malloc(2 * room * sizeof *w->list)};
+  w->x = malloc(10 * room * sizeof *w->x);
+  w->in = calloc(room, 1), w->next = calloc(room, 1), w->before = calloc(room, 1);
+  if (!w->list || !w->x || !w->in || !w->next || !w->before)
+    return work_close(w), no_memory(n, err);
+  w->order = w->list + room;
+  w->v = w->x + 3 * n, w->m = w->v + 3 * n, w->heat = w->m + n, w->phi = w->heat + n;
+  w->key = w->phi + n;
+#pragma omp parallel for if (n >= LARGE)
+  for (long k = 0; k < n; k++) {
+    const long i = w->list[k] = list[k];
+    memcpy(w->x + 3 * k, p->x + 3 * i, 3 * sizeof *w->x);
+    memcpy(w->v + 3 * k, p->v + 3 * i, 3 * sizeof *w->v);
+    w->m[k] = p->m[i], w->heat[k] = heat(p, i, o->level);
+  }
+  return 0;
+}
+
+/* Velocity of the particles with the lowest potential, a tenth of the mass: phi [n] J/kg (INFINITY:
+ * not of them), masses m, velocities v [n][3]. Equal potentials: the first first. */
+static int frame(long n, const double *phi, const double *m, const double *v, long *order,
+                 double out[3], Err *err)
 {
   double mass = 0, sum = 0;
-  long members = 0;
-  for (long k = 0; k < w->n; k++) {
-    w->key[k] = in[k] ? w->phi[k] : INFINITY;
-    if (in[k]) mass += w->p->m[w->list[k]], members++;
+  if (sort_reals(n, phi, order)) return no_memory(n, err);
+  for (long k = 0; k < n; k++) mass += phi[k] < INFINITY ? m[k] : 0;
+  out[0] = out[1] = out[2] = 0;
+  for (long k = 0; k < n && sum < CORE * mass; k++) {
+    const long j = order[k];
+    for (int a = 0; a < 3; a++) out[a] += m[j] * v[3 * j + a];
+    sum += m[j];
   }
-  gsl_sort_index(w->order, w->key, 1, (size_t)w->n);
-  v[0] = v[1] = v[2] = 0;
-  for (long k = 0; k < members && sum < CORE * mass; k++) {
-    long i = w->list[w->order[k]];
-    for (int a = 0; a < 3; a++) v[a] += w->p->m[i] * w->p->v[3 * i + a];
-    sum += w->p->m[i];
-  }
-  for (int a = 0; a < 3 && sum > 0; a++) v[a] /= sum;
+  for (int a = 0; a < 3 && sum > 0; a++) out[a] /= sum;
+  return 0;
 }
 
 /* Who is bound in the potential of the members. */
 static int judge(Work *w, Err *err)
 {
-  double v[3];
-  if (group_potential(w->p, w->list, w->in, w->n, w->o->theta, w->phi, err)) return -1;
-  frame(w, w->in, v);
-  for (long k = 0; k < w->n; k++) {
-    long i = w->list[k];
-    w->next[k] = 0.5 * speed2(w->p, i, v) + heat(w->p, i, w->o->level) + w->phi[k] < 0;
-  }
+  if (potential_sum(&w->pot, w->in, NULL, w->o->theta, w->phi, err)) return -1;
+  for (long k = 0; k < w->n; k++) w->key[k] = w->in[k] ? w->phi[k] : INFINITY;
+  if (frame(w->n, w->key, w->m, w->v, w->order, w->frame, err)) return -1;
+#pragma omp parallel for if (w->n >= LARGE)
+  for (long k = 0; k < w->n; k++)
+    w->next[k] = 0.5 * speed2(w->v + 3 * k, w->frame) + w->heat[k] + w->phi[k] < 0;
   return 0;
 }
 
 /* The same for the point mass of the members: M, R, V. A candidate adds its own mass (two-body
- * problem). */
+ * problem). Who has left, m = 0, is not bound. */
 static int judge_point(Work *w, Err *err)
 {
-  const Parts *p = w->p;
   double mass = 0, r[3] = {0}, v[3] = {0};
   (void)err;
   for (long k = 0; k < w->n; k++) {
-    long i = w->list[k];
-    for (int a = 0; a < 3 && w->in[k]; a++)
-      r[a] += p->m[i] * p->x[3 * i + a], v[a] += p->m[i] * p->v[3 * i + a];
-    if (w->in[k]) mass += p->m[i];
+    if (!w->in[k]) continue;
+    for (int a = 0; a < 3; a++)
+      r[a] += w->m[k] * w->x[3 * k + a], v[a] += w->m[k] * w->v[3 * k + a];
+    mass += w->m[k];
   }
   for (int a = 0; a < 3; a++) r[a] /= mass, v[a] /= mass;
-#pragma omp parallel for
+#pragma omp parallel for if (w->n >= LARGE)
   for (long k = 0; k < w->n; k++) {
-    long i = w->list[k];
-    double d = group_apart(p->x + 3 * i, r), mu = UNIT_G * (mass + (w->in[k] ? 0 : p->m[i]));
-    w->next[k] = d * (0.5 * speed2(p, i, v) + heat(p, i, w->o->level)) < mu;
+    double d = group_apart(w->x + 3 * k, r), mu = UNIT_G * (mass + (w->in[k] ? 0 : w->m[k]));
+    w->next[k] = w->m[k] > 0 && d * (0.5 * speed2(w->v + 3 * k, v) + w->heat[k]) < mu;
   }
   return 0;
 }
@@ -127,10 +138,11 @@ static long members(const Work *w)
 static long settle(Work *w, int (*rule)(Work *, Err *), Err *err)
 {
   size_t n = (size_t)w->n;
-  memset(w->before, 2, n);
-  for (int round = 0; round < ROUNDS && members(w) > 1; round++) {
+  memset(w->before, 2, n), w->fresh = 0;
+  for (int round = 0; round < ROUNDS && members(w) > 1 && !w->fresh; round++) {
     if (rule(w, err)) return -1;
-    if (!memcmp(w->next, w->in, n)) break;
+    w->fresh = !memcmp(w->next, w->in, n);
+    if (w->fresh) continue;
     if (!memcmp(w->next, w->before, n)) {
       for (size_t k = 0; k < n; k++) w->in[k] |= w->next[k];
       break;
@@ -141,202 +153,312 @@ static long settle(Work *w, int (*rule)(Work *, Err *), Err *err)
   return members(w);
 }
 
-static long deepest(const Work *w)
-{
-  long low = 0;
-  for (long k = 1; k < w->n; k++)
-    if (w->phi[k] < w->phi[low]) low = k;
-  return low;
-}
-
 /* The members are the particles nearest to the deepest one: a tenth of the mass, but `least` of
  * them. */
 static int core(Work *w, Err *err)
 {
-  const Parts *p = w->p;
   double mass = 0, sum = 0;
-  if (group_potential(p, w->list, NULL, w->n, w->o->theta, w->phi, err)) return -1;
-  const double *c = p->x + 3 * w->list[deepest(w)];
-  for (long k = 0; k < w->n; k++) {
-    w->key[k] = group_apart(p->x + 3 * w->list[k], c);
-    mass += p->m[w->list[k]], w->in[k] = 0;
-  }
-  gsl_sort_index(w->order, w->key, 1, (size_t)w->n);
+  long low = 0;
+  if (potential_sum(&w->pot, NULL, NULL, w->o->theta, w->phi, err)) return -1;
+  for (long k = 1; k < w->n; k++)
+    if (w->phi[k] < w->phi[low]) low = k;
+  for (long k = 0; k < w->n; k++)
+    w->key[k] = group_apart(w->x + 3 * k, w->x + 3 * low), mass += w->m[k];
+  if (sort_reals(w->n, w->key, w->order)) return no_memory(w->n, err);
   for (long k = 0; k < w->n && (sum < CORE * mass || k < w->o->least); k++)
-    w->in[w->order[k]] = 1, sum += p->m[w->list[w->order[k]]];
+    w->in[w->order[k]] = 1, sum += w->m[w->order[k]];
   return 0;
 }
 
-/* One body out of the fragment in w; its particles, or those of a core that came to nothing, are
- * not searched again. */
-static long body_of_fragment(Work *w, unsigned char *keep, int32_t *id, long found, Err *err)
+/* What is found: the body of each particle and the potential of that body; the frame of each body,
+ * and whether its potentials are out of date. */
+typedef struct {
+  const Parts *p;
+  const ClumpOptions *o;
+  int32_t *id;
+  double *phi; /* J/kg */
+  long found;
+  double (*frame)[3];   /* [found + 1] m/s */
+  unsigned char *stale; /* [found + 1] */
+} Found;
+
+static int found_more(Found *f, long n, Err *err)
 {
-  if (core(w, err)) return -1;
-  for (long k = 0; k < w->n; k++)
-    if (w->in[k]) keep[w->list[k]] = 0;
-  long n = settle(w, judge, err);
-  if (n < w->o->least) return n < 0 ? -1 : found;
-  found++;
-  for (long k = 0; k < w->n; k++)
-    if (w->in[k]) keep[w->list[k]] = 0, id[w->list[k]] = (int32_t)found;
-  return found;
+  const size_t room = (size_t)(f->found + n + 1);
+  void *frames = realloc(f->frame, room * sizeof *f->frame);
+  if (frames) f->frame = frames;
+  void *stale = realloc(f->stale, room);
+  if (stale) f->stale = stale;
+  return frames && stale ? 0 : err_set(err, "out of memory for %ld bodies", f->found + n);
 }
 
-/* All bodies of the fragments that are there now; *more: some fragment was found. */
-static long bodies_of_fragments(Work *w, unsigned char *keep, int32_t *frag, int32_t *id,
-                                long found, int *more, Err *err)
+/* One body, `name`, out of the fragment list [n]; its particles, or those of a core that came to
+ * nothing, are not searched again. */
+static int search_fragment(Found *f, const long *list, long n, long name, unsigned char *keep,
+                           Err *err)
 {
-  long *start, *list, fragments = fof_find(w->p, w->o->link, keep, w->o->least, frag, err);
-  *more = fragments > 0;
-  if (fragments < 0 || group_lists(w->p, frag, fragments, &start, &list, err)) return -1;
-  for (long f = 1; f <= fragments && found >= 0; f++) {
-    w->n = start[f + 1] - start[f];
-    memcpy(w->list, list + start[f], (size_t)w->n * sizeof *list);
-    found = body_of_fragment(w, keep, id, found, err);
+  Work w;
+  if (work_open(&w, f->p, f->o, list, n, err)) return -1;
+  int failed = potential_open(&w.pot, f->p, w.list, n, err) || core(&w, err);
+  for (long k = 0; k < n && !failed; k++)
+    if (w.in[k]) keep[list[k]] = 0;
+  long bound = failed ? -1 : settle(&w, judge, err);
+  for (long k = 0; k < n && bound >= f->o->least; k++)
+    if (w.in[k]) keep[list[k]] = 0, f->id[list[k]] = (int32_t)name, f->phi[list[k]] = w.phi[k];
+  memcpy(f->frame[name], w.frame, sizeof w.frame), f->stale[name] = !w.fresh;
+  work_close(&w);
+  return bound < 0 ? -1 : 0;
+}
+
+/* A body at most out of each of the fragments that are there now; *more: some fragment was found.
+ */
+static int search_fragments(Found *f, unsigned char *keep, int32_t *frag, int *more, Err *err)
+{
+  int failed = 0;
+  long *start, *list, n = fof_find(f->p, f->o->link, keep, f->o->least, frag, err);
+  *more = n > 0;
+  if (n < 0 || found_more(f, n, err) || group_lists(f->p, frag, n, &start, &list, err)) return -1;
+  for (int small = 0; small < 2; small++) {
+#pragma omp parallel for schedule(dynamic) reduction(| : failed) if (small)
+    for (long k = 1; k <= n; k++) {
+      Err why;
+      const long size = start[k + 1] - start[k];
+      if ((size < LARGE) != small || failed) continue;
+      if (!search_fragment(f, list + start[k], size, f->found + k, keep, &why)) continue;
+      failed = 1;
+#pragma omp critical
+      if (err) *err = why;
+    }
   }
+  f->found += n;
   free(start), free(list);
-  return found;
+  return failed ? -1 : 0;
 }
 
-/* The members of body c, their frame V, and behind them the loose particles that could be bound: at
- * a distance d from the centre the potential is no deeper than -G M/(d - rim). Returns the number
- * of members. */
-static long candidates(Work *w, const int32_t *id, const long *order, int32_t c, double v[3],
-                       Err *err)
+/* Loose particles, and the body that binds each of them most so far. */
+typedef struct {
+  long n, *list;
+  double *energy; /* J/kg, < 0 where one binds it */
+  int32_t *to;
+  unsigned char *near; /* scratch */
+} Loose;
+
+static void loose_free(Loose *l) { free(l->list), free(l->energy), free(l->to), free(l->near); }
+
+static int loose_find(Loose *l, const Parts *p, const int32_t *id, Err *err)
 {
-  const Parts *p = w->p;
+  *l = (Loose){.list = malloc(((size_t)p->n + 1) * sizeof *l->list)};
+  if (!l->list || group_order(p, l->list, err)) return loose_free(l), no_memory(p->n, err);
+  for (long k = 0; k < p->n; k++)
+    if (id[l->list[k]] == 0) l->list[l->n++] = l->list[k];
+  l->energy = calloc((size_t)l->n + 1, sizeof *l->energy);
+  l->to = calloc((size_t)l->n + 1, sizeof *l->to), l->near = malloc((size_t)l->n + 1);
+  if (l->energy && l->to && l->near) return 0;
+  return loose_free(l), no_memory(p->n, err);
+}
+
+/* Marks the loose particles that body list [n] could bind: at a distance d from the centre the
+ * potential is no deeper than -G M/(d - rim). Returns how many. */
+static long candidates(const Found *f, Loose *l, const long *list, long n, const double v[3])
+{
+  const Parts *p = f->p;
   double mass = 0, x[3] = {0}, rim = 0;
-  w->n = 0;
-  for (long o = 0; o < p->n; o++)
-    if (id[order[o]] == c) w->in[w->n] = 1, w->list[w->n++] = order[o];
-  if (group_potential(p, w->list, NULL, w->n, w->o->theta, w->phi, err)) return -1;
-  frame(w, w->in, v);
-  long n = w->n;
+  long near = 0;
   for (long k = 0; k < n; k++) {
-    long i = w->list[k];
-    for (int a = 0; a < 3; a++) x[a] += p->m[i] * p->x[3 * i + a];
-    mass += p->m[i];
+    for (int a = 0; a < 3; a++) x[a] += p->m[list[k]] * p->x[3 * list[k] + a];
+    mass += p->m[list[k]];
   }
   for (int a = 0; a < 3; a++) x[a] /= mass;
-  for (long k = 0; k < n; k++) rim = fmax(rim, group_apart(p->x + 3 * w->list[k], x));
-  for (long o = 0; o < p->n; o++) {
-    long i = order[o];
+  for (long k = 0; k < n; k++) rim = fmax(rim, group_apart(p->x + 3 * list[k], x));
+#pragma omp parallel for reduction(+ : near) if (l->n >= LARGE)
+  for (long k = 0; k < l->n; k++) {
+    const long i = l->list[k];
     double d = group_apart(p->x + 3 * i, x) - rim,
-           e = 0.5 * speed2(p, i, v) + heat(p, i, w->o->level);
-    if (id[i] == 0 && (d <= 0 || d * e < UNIT_G * mass)) w->in[w->n] = 0, w->list[w->n++] = i;
+           e = 0.5 * speed2(p->v + 3 * i, v) + heat(p, i, f->o->level);
+    l->near[k] = d <= 0 || d * e < UNIT_G * mass;
+    near += l->near[k];
   }
-  return n;
+  return near;
 }
 
-/* Loose particles that body c binds more than any body so far: best [p->n] energies J/kg, to [p->n]
- * bodies. */
-static int bind(Work *w, const int32_t *id, const long *order, int32_t c, double *best, int32_t *to,
-                Err *err)
+/* Loose particles that body c, list [n], binds more than any body so far. */
+static int bind(const Found *f, Loose *l, const long *list, long n, long c, Err *err)
 {
-  double v[3];
-  long n = candidates(w, id, order, c, v, err);
-  if (n < 0 || (w->n > n && group_potential(w->p, w->list, w->in, w->n, w->o->theta, w->phi, err)))
-    return -1;
-  for (long k = n; k < w->n; k++) {
-    long i = w->list[k];
-    double e = 0.5 * speed2(w->p, i, v) + heat(w->p, i, w->o->level) + w->phi[k];
-    if (e < best[i]) best[i] = e, to[i] = c;
+  const Parts *p = f->p;
+  const double *v = f->frame[c];
+  long near = candidates(f, l, list, n, v), at = n;
+  if (!near) return 0;
+  const size_t room = (size_t)(n + near);
+  long *all = malloc(room * sizeof *all), *who = malloc(room * sizeof *who);
+  unsigned char *in = calloc(room, 1), *out = calloc(room, 1);
+  double *phi = malloc(room * sizeof *phi);
+  Potential pot = {0};
+  int failed = all && who && in && out && phi ? 0 : no_memory(n + near, err);
+  if (!failed) memcpy(all, list, (size_t)n * sizeof *all), memset(in, 1, (size_t)n);
+  for (long k = 0; k < l->n && !failed; k++)
+    if (l->near[k]) who[at] = k, out[at] = 1, all[at++] = l->list[k];
+  failed = failed || potential_open(&pot, p, all, n + near, err) ||
+           potential_sum(&pot, in, out, f->o->theta, phi, err);
+  for (long k = n; k < n + near && !failed; k++) {
+    double e = 0.5 * speed2(p->v + 3 * all[k], v) + heat(p, all[k], f->o->level) + phi[k];
+    if (e < l->energy[who[k]]) l->energy[who[k]] = e, l->to[who[k]] = (int32_t)c;
   }
-  return 0;
+  potential_close(&pot), free(all), free(who), free(in), free(out), free(phi);
+  return failed ? -1 : 0;
+}
+
+/* One round: who is bound joins; grown [found + 1]: the bodies to be tried, then those that grew.
+ * Returns how many joined, or -1. */
+static long adopt_round(Found *f, Loose *l, unsigned char *grown, Err *err)
+{
+  long *start, *list, kept = 0, joined;
+  int failed = 0;
+  if (group_lists(f->p, f->id, f->found, &start, &list, err)) return -1;
+  for (long c = 1; c <= f->found && !failed; c++)
+    if (grown[c] && start[c + 1] > start[c])
+      failed = bind(f, l, list + start[c], start[c + 1] - start[c], c, err);
+  free(start), free(list);
+  if (failed) return -1;
+  memset(grown, 0, (size_t)f->found + 1);
+  for (long k = 0; k < l->n; k++) {
+    const int32_t c = l->to[k];
+    if (c)
+      f->id[l->list[k]] = c, grown[c] = f->stale[c] = 1;
+    else
+      l->list[kept] = l->list[k], l->energy[kept] = l->energy[k], l->to[kept++] = 0;
+  }
+  joined = l->n - kept, l->n = kept;
+  return joined;
 }
 
 /* Loose particles join the body that binds them most, until none is added; only bodies that grew
- * are tried again. */
-static int adopt(Work *w, int32_t *id, long found, const long *order, Err *err)
+ * are tried again. A body keeps its frame. */
+static int adopt(Found *f, Err *err)
 {
-  const Parts *p = w->p;
-  double *best = calloc((size_t)p->n + 1, sizeof *best);
-  int32_t *to = calloc((size_t)p->n + 1, sizeof *to);
-  unsigned char *grown = malloc((size_t)found + 1);
-  int failed = !best || !to || !grown ? err_set(err, "out of memory for %ld particles", p->n) : 0,
-      more = 1;
-  if (grown) memset(grown, 1, (size_t)found + 1);
-  for (int round = 0; round < ROUNDS && more && !failed; round++) {
-    for (long c = 1; c <= found && !failed; c++)
-      if (grown[c]) failed = bind(w, id, order, (int32_t)c, best, to, err);
-    memset(grown, 0, (size_t)found + 1), more = 0;
-    for (long i = 0; i < p->n && !failed; i++)
-      if (id[i] == 0 && to[i]) id[i] = to[i], grown[to[i]] = 1, more = 1;
+  Loose l;
+  unsigned char *grown = malloc((size_t)f->found + 1);
+  if (!grown) return err_set(err, "out of memory for %ld bodies", f->found);
+  if (loose_find(&l, f->p, f->id, err)) return free(grown), -1;
+  memset(grown, 1, (size_t)f->found + 1);
+  long joined = 1;
+  for (int round = 0; round < ROUNDS && joined > 0 && l.n > 0; round++)
+    joined = adopt_round(f, &l, grown, err);
+  free(grown), loose_free(&l);
+  return joined < 0 ? -1 : 0;
+}
+
+static int by_potential(Found *f, Err *err)
+{
+  unsigned char *keep = malloc((size_t)f->p->n + 1);
+  int32_t *frag = malloc(((size_t)f->p->n + 1) * sizeof *frag);
+  int more = 1, failed = keep && frag ? 0 : no_memory(f->p->n, err);
+  if (keep) memset(keep, 1, (size_t)f->p->n + 1);
+  while (more && !failed) failed = search_fragments(f, keep, frag, &more, err);
+  free(keep), free(frag);
+  return failed ? -1 : adopt(f, err);
+}
+
+/* The free particles move up; who has left (m = 0) goes. */
+static void close_ranks(Work *w)
+{
+  long kept = 0;
+  for (long k = 0; k < w->n; k++) {
+    if (w->m[k] <= 0) continue;
+    memmove(w->x + 3 * kept, w->x + 3 * k, 3 * sizeof *w->x);
+    memmove(w->v + 3 * kept, w->v + 3 * k, 3 * sizeof *w->v);
+    w->m[kept] = w->m[k], w->heat[kept] = w->heat[k], w->list[kept++] = w->list[k];
   }
-  free(best), free(to), free(grown);
+  w->n = kept;
+}
+
+/* Bodies from seeds, the candidates of w in their order: a seed and the free particles in its
+ * support. */
+static int grow_bodies(Found *f, Work *w, Err *err)
+{
+  long left = w->n;
+  for (long seed = 0; left >= f->o->least && seed < w->n; seed++) {
+    if (w->m[seed] <= 0) continue;
+    const double reach = f->p->h[w->list[seed]];
+    for (long k = 0; k < w->n; k++)
+      w->in[k] = w->m[k] > 0 && group_apart(w->x + 3 * k, w->x + 3 * seed) < reach;
+    const long n = settle(w, judge_point, err);
+    if (n < 0 || (n >= f->o->least && found_more(f, 1, err))) return -1;
+    if (n >= f->o->least) f->stale[++f->found] = 1;
+    for (long k = 0; k < w->n; k++) {
+      if (!w->in[k] && k != seed) continue;
+      if (w->in[k] && n >= f->o->least) f->id[w->list[k]] = (int32_t)f->found;
+      left -= w->m[k] > 0, w->m[k] = 0;
+    }
+    if (left < w->n / 2) close_ranks(w), seed = -1;
+  }
+  return 0;
+}
+
+/* Seeds in the order of the potential of the whole system, equal ones by id. */
+static int by_growth(Found *f, Err *err)
+{
+  const long n = f->p->n;
+  long *order = malloc(2 * ((size_t)n + 1) * sizeof *order), *deep = order + n + 1;
+  int failed = order ? group_order(f->p, order, err) : no_memory(n, err);
+  if (!failed) failed = potential_own(f->p, order, n, f->o->theta, f->phi, err);
+  if (!failed && sort_reals(n, f->phi, deep)) failed = no_memory(n, err);
+  for (long k = 0; k < n && !failed; k++) deep[k] = order[deep[k]];
+  Work w;
+  if (!failed && !(failed = work_open(&w, f->p, f->o, deep, n, err)))
+    failed = grow_bodies(f, &w, err), work_close(&w);
+  free(order);
   return failed;
 }
 
-static long by_potential(Work *w, int32_t *id, const long *order, Err *err)
+/* The potentials of bodies that have changed since theirs were found; NAN outside. */
+static int refresh(Found *f, Err *err)
 {
-  unsigned char *keep = malloc((size_t)w->p->n + 1);
-  int32_t *frag = malloc(((size_t)w->p->n + 1) * sizeof *frag);
-  long found = keep && frag ? 0 : err_set(err, "out of memory for %ld particles", w->p->n);
-  int more = 1;
-  if (keep) memset(keep, 1, (size_t)w->p->n + 1);
-  while (found >= 0 && more) found = bodies_of_fragments(w, keep, frag, id, found, &more, err);
-  if (found > 0 && adopt(w, id, found, order, err)) found = -1;
-  free(keep), free(frag);
-  return found;
-}
-
-/* Seeds in the order of the potential of the whole system: the deepest free particle and the free
- * ones in its support. */
-static long by_growth(Work *w, int32_t *id, const long *order, Err *err)
-{
-  const Parts *p = w->p;
-  long found = 0;
-  w->n = p->n;
-  memcpy(w->list, order, (size_t)p->n * sizeof *order);
-  if (group_potential(p, w->list, NULL, w->n, w->o->theta, w->phi, err)) return -1;
-  while (w->n >= w->o->least) {
-    long seed = w->list[deepest(w)], kept = 0;
-    for (long k = 0; k < w->n; k++)
-      w->in[k] = group_apart(p->x + 3 * w->list[k], p->x + 3 * seed) < p->h[seed];
-    long n = settle(w, judge_point, err);
-    if (n >= w->o->least) found++;
-    for (long k = 0; k < w->n; k++) {
-      long i = w->list[k];
-      if (n >= w->o->least && w->in[k]) id[i] = (int32_t)found;
-      if (!w->in[k] && i != seed) w->phi[kept] = w->phi[k], w->list[kept++] = i;
-    }
-    w->n = kept;
+  long *start, *list;
+  int failed = group_lists(f->p, f->id, f->found, &start, &list, err);
+  if (failed) return -1;
+  for (long i = 0; i < f->p->n; i++)
+    if (!f->id[i]) f->phi[i] = NAN;
+  for (long c = 1; c <= f->found && !failed; c++) {
+    const long *own = list + start[c], n = start[c + 1] - start[c];
+    if (!f->stale[c] || !n) continue;
+    double *phi = malloc((size_t)n * sizeof *phi);
+    failed = phi ? potential_own(f->p, own, n, f->o->theta, phi, err) : no_memory(n, err);
+    for (long k = 0; k < n && !failed; k++) f->phi[own[k]] = phi[k];
+    free(phi);
   }
-  return found;
+  free(start), free(list);
+  return failed;
 }
 
-long clump_find(const Parts *p, const ClumpOptions *o, int32_t *id, Err *err)
+long clump_find(const Parts *p, const ClumpOptions *o, int32_t *id, double *phi, Err *err)
 {
-  Work w;
-  long found = -1, *order = malloc(((size_t)p->n + 1) * sizeof *order);
+  Found f = {.p = p, .o = o, .id = id, .phi = phi};
   memset(id, 0, (size_t)p->n * sizeof *id);
-  if (!work_room(&w, p, o, err) && order && !group_order(p, order, err))
-    found = o->grow ? by_growth(&w, id, order, err) : by_potential(&w, id, order, err);
-  if (!order) err_set(err, "out of memory for %ld particles", p->n);
-  work_free(&w), free(order);
-  return found < 0 ? -1 : group_rank(p, id, found, o->least, err);
+  int failed = found_more(&f, 0, err) || (o->grow ? by_growth(&f, err) : by_potential(&f, err)) ||
+               refresh(&f, err);
+  free(f.frame), free(f.stale);
+  return failed ? -1 : group_rank(p, id, f.found, o->least, err);
 }
 
-int clump_levels(const Parts *p, const long *list, long n, double theta, double mass[CLUMP_LEVELS],
-                 Err *err)
+int clump_levels(const Parts *p, const long *list, long n, const double *phi,
+                 double mass[CLUMP_LEVELS], Err *err)
 {
-  Work w;
-  ClumpOptions o = {.theta = theta};
-  double v[3];
-  int failed = work_room(&w, p, &o, err);
-  if (!failed) {
-    w.n = n;
-    memcpy(w.list, list, (size_t)n * sizeof *list), memset(w.in, 1, (size_t)n);
-    failed = group_potential(p, w.list, NULL, n, theta, w.phi, err);
+  const size_t room = (size_t)n + 1;
+  double *own = malloc(5 * room * sizeof *own), centre[3];
+  long *order = malloc(room * sizeof *order);
+  if (!own || !order) return free(own), free(order), no_memory(n, err);
+  double *m = own + n, *v = m + n;
+  for (long k = 0; k < n; k++) {
+    own[k] = phi[list[k]], m[k] = p->m[list[k]];
+    memcpy(v + 3 * k, p->v + 3 * list[k], 3 * sizeof *v);
   }
-  if (!failed) frame(&w, w.in, v);
+  int failed = frame(n, own, m, v, order, centre, err);
   for (int l = 0; l < CLUMP_LEVELS && !failed; l++) {
     int there = (l < CLUMP_THERMAL || p->u) && (l < CLUMP_ENTHALPY || (p->p && p->rho));
     mass[l] = there ? 0 : NAN;
     for (long k = 0; k < n && there; k++)
-      if (0.5 * speed2(p, list[k], v) + heat(p, list[k], l) + w.phi[k] < 0)
-        mass[l] += p->m[list[k]];
+      if (0.5 * speed2(v + 3 * k, centre) + heat(p, list[k], l) + own[k] < 0) mass[l] += m[k];
   }
-  work_free(&w);
-  return failed;
+  free(own), free(order);
+  return failed ? -1 : 0;
 }

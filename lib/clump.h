@@ -25,13 +25,14 @@ typedef struct {
   long least;   /* smallest number of particles of a body */
 } ClumpOptions;
 
-/* clump_find: id [p->n] = 1, 2, ... by descending mass, 0: in no body. Needs id x v m h, u from
+/* clump_find: id [p->n] = 1, 2, ... by descending mass, 0: in no body. phi [p->n] J/kg: the
+ * potential that a particle's body makes at it, NAN in no body. Needs id x v m h, u from
  * CLUMP_THERMAL on, p and rho for CLUMP_ENTHALPY. Returns the number of bodies, or -1. */
-long clump_find(const Parts *p, const ClumpOptions *o, int32_t *id, Err *err);
+long clump_find(const Parts *p, const ClumpOptions *o, int32_t *id, double *phi, Err *err);
 
-/* clump_levels: mass [kg] of the members list [n] (ascending ids) that is bound at each level in
- * the potential of all of them; NAN where a field is missing. */
-int clump_levels(const Parts *p, const long *list, long n, double theta, double mass[CLUMP_LEVELS],
-                 Err *err);
+/* clump_levels: mass [kg] of the members list [n] (ascending ids) that is bound at each level, with
+ * phi as from clump_find; NAN where a field is missing. */
+int clump_levels(const Parts *p, const long *list, long n, const double *phi,
+                 double mass[CLUMP_LEVELS], Err *err);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Fragments: neighbour lists from the tree, joined by a lock-free union-find in which the smaller
- * index is always the root, so that the forest's roots do not depend on the threads (Jayanti &
- * Tarjan 2016, arXiv:1612.01514, with linking by index). */
+/* Fragments: neighbours from the tree, joined as they are found by a lock-free union-find in which
+ * the smaller index is always the root, so that the forest's roots do not depend on the threads
+ * (Jayanti & Tarjan 2016, arXiv:1612.01514, with linking by index). */
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
@@ -74,20 +74,20 @@ static int set_fill(Set *s, const Parts *p, const unsigned char *keep, Err *err)
   return failed;
 }
 
+static void befriend(long i, const uint32_t *j, long n, void *parent)
+{
+  for (long k = 0; k < n; k++)
+    if (j[k] < i) join(parent, (uint32_t)i, j[k]);
+}
+
 static int set_link(Set *s, double link, Err *err)
 {
   Tree tree = {0};
-  Ngb ngb = {0};
-  int failed = s->n < 2 ? 0 : tree_build(&tree, s->n, s->x, NULL, s->h, err);
-  if (!failed && s->n > 1) failed = ngb_search(&ngb, &tree, s->x, NULL, s->h, link, err);
-  if (!failed && s->n > 1) {
-#pragma omp parallel for schedule(dynamic, 1024)
-    for (long i = 0; i < s->n; i++)
-      for (int64_t k = ngb.start[i]; k < ngb.start[i + 1]; k++)
-        if (ngb.list[k] < i) join(s->parent, (uint32_t)i, ngb.list[k]);
-  }
-  ngb_free(&ngb), tree_free(&tree);
-  return failed;
+  if (s->n < 2) return 0;
+  int failed = tree_build(&tree, s->n, s->x, NULL, s->h, err) ||
+               ngb_each(&tree, s->x, s->h, link, befriend, s->parent, err);
+  tree_free(&tree);
+  return failed ? -1 : 0;
 }
 
 long fof_find(const Parts *p, double link, const unsigned char *keep, long least, int32_t *id,
@@ -96,9 +96,12 @@ long fof_find(const Parts *p, double link, const unsigned char *keep, long least
   Set s = {0};
   long found = -1;
   if (!set_room(&s, p->n, err) && !set_fill(&s, p, keep, err) && !set_link(&s, link, err)) {
-    memset(id, 0, (size_t)p->n * sizeof *id);
-    for (long k = 0; k < s.n; k++) id[s.row[k]] = (int32_t)find(s.parent, (uint32_t)k) + 1;
-    found = group_rank(p, id, s.n, least, err);
+    memset(id, 0, (size_t)p->n * sizeof *id), found = 0;
+    for (long k = 0; k < s.n; k++) { /* a root comes before the others of its fragment */
+      const uint32_t root = find(s.parent, (uint32_t)k);
+      id[s.row[k]] = root == k ? (int32_t)++found : id[s.row[root]];
+    }
+    found = group_rank(p, id, found, least, err);
   }
   set_free(&s);
   return found;

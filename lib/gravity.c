@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include "gravity.h"
 
-enum { PAD = 16, ALIGN = 64 };
+enum { PAD = 16, ALIGN = 64, PULL = 1, POTENTIAL = 2 };
 #define INLINE static inline __attribute__((always_inline))
 /* With M(q) = 14q^3 - 84q^5 + 140q^6 - 90q^7 + 21q^8, the mass of a Wendland C2 kernel within q. */
 #define SOFT_FORCE(q) (14 + (q) * (q) * (-84 + (q) * (140 + (q) * (-90 + (q)*21))))
@@ -15,7 +15,8 @@ enum { PAD = 16, ALIGN = 64 };
 
 typedef struct {
   const double *x, *m, *h; /* h may be NULL */
-  double *a, *phi;         /* phi may be NULL */
+  double *a, *phi;         /* one may be NULL */
+  const unsigned char *only;
 } Bodies;
 
 typedef struct {
@@ -92,10 +93,15 @@ static double power_of_2(double x)
   return ldexp(1, e);
 }
 
-int gravity_tree(const Tree *t, const double *x, const double *m, const double *h,
-                 const GravityOptions *o, double *a, double *phi, Err *err)
+static int wanted(const Bodies *p, const TreeGroup *g)
 {
-  const Bodies p = {x, m, h, a, phi};
+  for (long i = g->first; i < g->first + (long)g->count && p->only; i++)
+    if (p->only[i]) return 1;
+  return !p->only;
+}
+
+static int by_groups(const Tree *t, const Bodies *p, const GravityOptions *o, Err *err)
+{
   const Scale s = {.length = power_of_2(fmax(t->edge, t->node[0].hmax)),
                    .mass = power_of_2(t->node[0].mass),
                    .G = o->G,
@@ -109,9 +115,10 @@ int gravity_tree(const Tree *t, const double *x, const double *m, const double *
 #pragma omp for schedule(dynamic, 4)
     for (int32_t k = 0; k < t->groups; k++) {
       const TreeGroup *g = t->group + k;
+      if (!wanted(p, g)) continue;
       if (failed || walk_tree(&w, t, g, o->theta) ||
-          (o->single ? group_f(&s, &p, t, g, &w, &nodes_f, &parts_f)
-                     : group_d(&s, &p, t, g, &w, &nodes_d, &parts_d)))
+          (o->single ? group_f(&s, p, t, g, &w, &nodes_f, &parts_f)
+                     : group_d(&s, p, t, g, &w, &nodes_d, &parts_d)))
         failed = 1;
     }
     free(w.node), free(w.range);
@@ -120,14 +127,28 @@ int gravity_tree(const Tree *t, const double *x, const double *m, const double *
   return failed ? err_set(err, "cannot sum the gravity of %ld particles: no memory", t->n) : 0;
 }
 
+int gravity_tree(const Tree *t, const double *x, const double *m, const double *h,
+                 const GravityOptions *o, double *a, double *phi, Err *err)
+{
+  const Bodies p = {x, m, h, a, phi, NULL};
+  return by_groups(t, &p, o, err);
+}
+
+int gravity_potential(const Tree *t, const double *x, const double *m, const double *h,
+                      const GravityOptions *o, const unsigned char *only, double *phi, Err *err)
+{
+  const Bodies p = {x, m, h, NULL, phi, only};
+  return by_groups(t, &p, o, err);
+}
+
 int gravity_direct(long n, const double *x, const double *m, const double *h, double G, double *a,
                    double *phi, Err *err)
 {
-  enum { SHARE = 64 };
-  const Bodies p = {x, m, h, a, phi};
+  enum { SHARE = 64, SERIAL = 1024 }; /* SERIAL: fewer are not worth a second thread */
+  const Bodies p = {x, m, h, a, phi, NULL};
   const Scale s = {.length = 1, .mass = 1, .G = G, .near = 1e-80};
   int failed = 0;
-#pragma omp parallel reduction(| : failed)
+#pragma omp parallel reduction(| : failed) if (n > SERIAL)
   {
     List_d none = {0}, all = {0};
     failed = reserve_d(&none, 0) || reserve_d(&all, n);

@@ -33,8 +33,12 @@ typedef struct {
 int gravity_tree(const Tree *t, const double *x, const double *m, const double *h,
                  const GravityOptions *o, double *a, double *phi, Err *err);
 
-/* gravity_direct: the same by n^2 sums in double precision, any order of particles; forces are
- * antisymmetric to rounding. */
+/* gravity_potential: only phi, and only where only[i] != 0 (NULL: everywhere). */
+int gravity_potential(const Tree *t, const double *x, const double *m, const double *h,
+                      const GravityOptions *o, const unsigned char *only, double *phi, Err *err);
+
+/* gravity_direct: the same by n^2 sums in double precision, any order of particles; a or phi may
+ * be NULL; forces are antisymmetric to rounding. */
 int gravity_direct(long n, const double *x, const double *m, const double *h, double G, double *a,
                    double *phi, Err *err);
 

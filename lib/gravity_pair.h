@@ -70,7 +70,7 @@ static void NAME(pack_particles)(NAME(List) * l, const Scale *s, const Bodies *p
 
 /* Adds the field of all nodes of the list at (x, y, z) to f: acceleration and potential for G = 1.
  */
-INLINE void NAME(from_nodes)(const NAME(List) * l, REAL x, REAL y, REAL z, int potential, REAL f[4])
+INLINE void NAME(from_nodes)(const NAME(List) * l, REAL x, REAL y, REAL z, int what, REAL f[4])
 {
   const REAL *restrict px = l->x, *restrict py = l->y, *restrict pz = l->z, *restrict pm = l->m;
   const REAL *restrict q0 = l->q[0], *restrict q1 = l->q[1], *restrict q2 = l->q[2];
@@ -86,10 +86,12 @@ INLINE void NAME(from_nodes)(const NAME(List) * l, REAL x, REAL y, REAL z, int p
     REAL qy = q1[j] * dx + q3[j] * dy + q4[j] * dz;
     REAL qz = q2[j] * dx + q4[j] * dy + q5[j] * dz;
     REAL qq = (qx * dx + qy * dy + qz * dz) * i2, c = pm[j] + (REAL)2.5 * qq;
-    ax += (qx * i2 - c * dx) * i2;
-    ay += (qy * i2 - c * dy) * i2;
-    az += (qz * i2 - c * dz) * i2;
-    if (potential) phi -= (pm[j] + (REAL)0.5 * qq) * i1;
+    if (what & PULL) {
+      ax += (qx * i2 - c * dx) * i2;
+      ay += (qy * i2 - c * dy) * i2;
+      az += (qz * i2 - c * dz) * i2;
+    }
+    if (what & POTENTIAL) phi -= (pm[j] + (REAL)0.5 * qq) * i1;
   }
   f[0] += ax, f[1] += ay, f[2] += az, f[3] += phi;
 }
@@ -97,7 +99,7 @@ INLINE void NAME(from_nodes)(const NAME(List) * l, REAL x, REAL y, REAL z, int p
 /* The same for particles; h: half the target's support; near: the smallest s, pairs below it do not
  * act. */
 INLINE void NAME(from_particles)(const NAME(List) * l, REAL x, REAL y, REAL z, REAL h, REAL near,
-                                 int potential, REAL f[4])
+                                 int what, REAL f[4])
 {
   const REAL *restrict px = l->x, *restrict py = l->y, *restrict pz = l->z, *restrict pm = l->m,
                        *restrict ph = l->h;
@@ -109,34 +111,41 @@ INLINE void NAME(from_particles)(const NAME(List) * l, REAL x, REAL y, REAL z, R
     REAL r = NAME(root)(dx * dx + dy * dy + dz * dz), s = r > hij ? r : hij;
     REAL i1 = 1 / (s > near ? s : near), q = r * i1, mi = pm[j] * i1;
     REAL c = mi * (i1 * i1) * SOFT_FORCE(q);
-    ax -= c * dx, ay -= c * dy, az -= c * dz;
-    if (potential) phi -= s > near ? mi * SOFT_POTENTIAL(q) : 0;
+    if (what & PULL) ax -= c * dx, ay -= c * dy, az -= c * dz;
+    if (what & POTENTIAL) phi -= s > near ? mi * SOFT_POTENTIAL(q) : 0;
   }
   f[0] += ax, f[1] += ay, f[2] += az, f[3] += phi;
 }
 
 /* The field at particles b .. e-1 from both lists; self: where particle b stands in the list of
  * particles. */
-static void NAME(evaluate)(const Scale *s, const Bodies *p, long b, long e,
-                           const NAME(List) * nodes, NAME(List) * parts, long self)
+INLINE void NAME(sums)(const Scale *s, const Bodies *p, long b, long e, const NAME(List) * nodes,
+                       NAME(List) * parts, long self, int what)
 {
   const double il = 1 / s->length, ga = s->G * s->mass * il * il, gp = s->G * s->mass * il;
   for (long i = b; i < e; i++) {
+    if (p->only && !p->only[i]) continue;
     const long k = self + i - b;
     const REAL x = parts->x[k], y = parts->y[k], z = parts->z[k], h = parts->h[k], m = parts->m[k];
     REAL f[4] = {0}, g[4] = {0};
     parts->m[k] = 0; /* not on itself */
-    if (p->phi) {
-      NAME(from_nodes)(nodes, x, y, z, 1, f);
-      NAME(from_particles)(parts, x, y, z, h, (REAL)s->near, 1, g);
-      p->phi[i] = gp * ((double)f[3] + (double)g[3]);
-    } else {
-      NAME(from_nodes)(nodes, x, y, z, 0, f);
-      NAME(from_particles)(parts, x, y, z, h, (REAL)s->near, 0, g);
-    }
+    NAME(from_nodes)(nodes, x, y, z, what, f);
+    NAME(from_particles)(parts, x, y, z, h, (REAL)s->near, what, g);
     parts->m[k] = m;
-    for (int d = 0; d < 3; d++) p->a[3 * i + d] = ga * ((double)f[d] + (double)g[d]);
+    if (what & POTENTIAL) p->phi[i] = gp * ((double)f[3] + (double)g[3]);
+    for (int d = 0; d < 3 && what & PULL; d++) p->a[3 * i + d] = ga * ((double)f[d] + (double)g[d]);
   }
+}
+
+static void NAME(evaluate)(const Scale *s, const Bodies *p, long b, long e,
+                           const NAME(List) * nodes, NAME(List) * parts, long self)
+{
+  if (!p->a)
+    NAME(sums)(s, p, b, e, nodes, parts, self, POTENTIAL);
+  else if (p->phi)
+    NAME(sums)(s, p, b, e, nodes, parts, self, PULL | POTENTIAL);
+  else
+    NAME(sums)(s, p, b, e, nodes, parts, self, PULL);
 }
 
 /* One group: lists (in single precision relative to its centre), then the sums. */

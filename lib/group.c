@@ -7,17 +7,12 @@
 #include <string.h>
 #include <strings.h>
 #include <gsl/gsl_eigen.h>
-#include <gsl/gsl_sort.h>
 #include "group.h"
-#include "gravity.h"
+#include "potential.h"
+#include "sort.h"
 #include "unit.h"
 
 #define PI 3.14159265358979323846
-/* Up to here n^2 sums are faster than a tree. */
-#define DIRECT 512
-/* Mass of a particle that only feels, in units of its own: invisible in double precision. */
-#define GHOST 1e-60
-
 /* clang-format off */
 /* X(name, unit, value) of a Group *g in a system Group *s */
 #define COLUMNS(X) \
@@ -34,21 +29,10 @@
 /* clang-format on */
 
 typedef struct {
-  int64_t id;
-  long i;
-} Key;
-
-typedef struct {
   int64_t first; /* lowest particle id */
   double mass;   /* kg */
   long n, old;
 } Rank;
-
-static int by_id(const void *a, const void *b)
-{
-  const Key *p = a, *q = b;
-  return p->id < q->id ? -1 : p->id > q->id;
-}
 
 static int by_mass(const void *a, const void *b)
 {
@@ -79,13 +63,7 @@ int group_named(const Parts *p, const char *text, const char *file, const int32_
 
 int group_order(const Parts *p, long *order, Err *err)
 {
-  Key *key = malloc((size_t)(p->n + 1) * sizeof *key);
-  if (!key) return err_set(err, "out of memory for %ld particles", p->n);
-  for (long i = 0; i < p->n; i++) key[i] = (Key){p->id[i], i};
-  qsort(key, (size_t)p->n, sizeof *key, by_id);
-  for (long i = 0; i < p->n; i++) order[i] = key[i].i;
-  free(key);
-  return 0;
+  return sort_ids(p->n, p->id, order) ? err_set(err, "out of memory for %ld particles", p->n) : 0;
 }
 
 long group_rank(const Parts *p, int32_t *id, long groups, long least, Err *err)
@@ -231,34 +209,35 @@ static int spin(Group *g, Err *err)
 static int radii(Group *g, const Parts *p, const long *list, Err *err)
 {
   double *r = malloc((size_t)g->n * sizeof *r), sum = 0;
-  size_t *order = malloc((size_t)g->n * sizeof *order);
-  for (long k = 0; k < g->n && r && order; k++) { r[k] = group_apart(p->x + 3 * list[k], g->x); }
-  if (r && order) gsl_sort_index(order, r, 1, (size_t)g->n);
-  for (long k = 0; k < g->n && r && order; k++) {
+  long *order = malloc((size_t)g->n * sizeof *order);
+  for (long k = 0; k < g->n && r; k++) r[k] = group_apart(p->x + 3 * list[k], g->x);
+  int failed = !r || !order || sort_reals(g->n, r, order);
+  for (long k = 0; k < g->n && !failed; k++) {
     double before = sum / g->mass, now = (sum += p->m[list[order[k]]]) / g->mass,
            last = k == g->n - 1;
     if (before < 0.50 && (now >= 0.50 || last)) g->r50 = r[order[k]];
     if (before < 0.90 && (now >= 0.90 || last)) g->r90 = r[order[k]];
     if (before < 0.99 && (now >= 0.99 || last)) g->r99 = r[order[k]];
   }
-  int failed = !r || !order;
   free(r), free(order);
   return failed ? err_set(err, "out of memory for %ld particles", g->n) : 0;
 }
 
-static int own_gravity(Group *g, const Parts *p, const long *list, double theta, Err *err)
+static int own_gravity(Group *g, const Parts *p, const long *list, double theta, const double *phi,
+                       Err *err)
 {
-  double *phi = malloc((size_t)g->n * sizeof *phi);
-  if (!phi) return err_set(err, "out of memory for %ld particles", g->n);
-  int failed = group_potential(p, list, NULL, g->n, theta, phi, err);
+  double *own = phi ? NULL : malloc((size_t)g->n * sizeof *own);
+  if (!phi && !own) return err_set(err, "out of memory for %ld particles", g->n);
+  int failed = own ? potential_own(p, list, g->n, theta, own, err) : 0;
   g->e_pot = 0;
-  for (long k = 0; k < g->n && !failed; k++) g->e_pot += 0.5 * p->m[list[k]] * phi[k];
-  free(phi);
+  for (long k = 0; k < g->n && !failed; k++)
+    g->e_pot += 0.5 * p->m[list[k]] * (phi ? phi[list[k]] : own[k]);
+  free(own);
   return failed;
 }
 
 int group_measure(Group *g, const Parts *p, const long *list, long n, int bodies, double theta,
-                  Err *err)
+                  const double *phi, Err *err)
 {
   memset(g, 0, sizeof *g);
   g->n = n, g->bodies = bodies, g->e_pot = NAN;
@@ -267,10 +246,44 @@ int group_measure(Group *g, const Parts *p, const long *list, long n, int bodies
   if (n == 0) return 0;
   centre(g, p, list), contents(g, p, list), moments(g, p, list);
   if (!spin(g, err) && !radii(g, p, list, err) &&
-      (theta < 0 || !own_gravity(g, p, list, theta, err)))
+      ((theta < 0 && !phi) || !own_gravity(g, p, list, theta, phi, err)))
     return 0;
   group_free(g);
   return -1;
+}
+
+/* Large groups one by one, each with all threads; then small ones, each with one. */
+Group *group_all(const Parts *p, const int32_t *id, long groups, int bodies, double theta,
+                 const double *phi, Err *err)
+{
+  enum { LARGE = 20000 };
+  long *start, *list;
+  int failed = 0;
+  Group *g = calloc((size_t)groups + 1, sizeof *g);
+  if (!g) return err_null(err, "out of memory for %ld groups", groups);
+  if (group_lists(p, id, groups, &start, &list, err)) return free(g), NULL;
+  for (int small = 0; small < 2; small++) {
+#pragma omp parallel for schedule(dynamic, 8) reduction(| : failed) if (small)
+    for (long k = 0; k < groups; k++) {
+      const long first = start[k + 1], n = start[k + 2] - first;
+      Err why;
+      if ((n < LARGE) != small || failed) continue;
+      if (!group_measure(&g[k], p, list + first, n, bodies, theta, phi, &why)) continue;
+      failed = 1;
+#pragma omp critical
+      if (err) *err = why;
+    }
+  }
+  free(start), free(list);
+  if (!failed) return g;
+  group_all_free(g, groups);
+  return NULL;
+}
+
+void group_all_free(Group *g, long groups)
+{
+  for (long k = 0; k < groups; k++) group_free(&g[k]);
+  free(g);
 }
 
 int group_system(Group *g, const Parts *p, double theta, Err *err)
@@ -279,7 +292,8 @@ int group_system(Group *g, const Parts *p, double theta, Err *err)
   if (bodies < 0) return -1;
   long *order = malloc((size_t)(p->n + 1) * sizeof *order);
   if (!order) return err_set(err, "out of memory for %ld particles", p->n);
-  int failed = group_order(p, order, err) || group_measure(g, p, order, p->n, bodies, theta, err);
+  int failed =
+      group_order(p, order, err) || group_measure(g, p, order, p->n, bodies, theta, NULL, err);
   free(order);
   return failed ? -1 : 0;
 }
@@ -294,43 +308,6 @@ void group_free(Group *g)
 {
   free(g->part);
   g->part = NULL;
-}
-
-/* In tree order: positions, masses and supports of list, made light where they shall not act. */
-static void gather(const Parts *p, const long *list, const unsigned char *in, const long *order,
-                   long n, double *y)
-{
-  double *x = y, *m = y + 3 * n, *h = y + 4 * n;
-  for (long k = 0; k < n; k++) {
-    long i = list[order[k]];
-    memcpy(x + 3 * k, p->x + 3 * i, 3 * sizeof *x);
-    m[k] = p->m[i] * (in && !in[order[k]] ? GHOST : 1), h[k] = p->h[i];
-  }
-}
-
-int group_potential(const Parts *p, const long *list, const unsigned char *in, long n, double theta,
-                    double *phi, Err *err)
-{
-  if (n <= 0) return 0;
-  GravityOptions o = {.theta = theta, .G = UNIT_G};
-  Tree tree = {0};
-  long *order = malloc((size_t)n * sizeof *order);
-  int64_t *id = calloc((size_t)n, sizeof *id);
-  double *y = calloc((size_t)n, 9 * sizeof *y), *x = y, *m = y + 3 * n, *h = y + 4 * n,
-         *a = y + 5 * n, *f = y + 8 * n;
-  int failed = !order || !id || !y ? err_set(err, "out of memory for %ld particles", n) : 0;
-  for (long k = 0; k < n && !failed; k++) {
-    id[k] = p->id[list[k]];
-    memcpy(x + 3 * k, p->x + 3 * list[k], 3 * sizeof *x);
-  }
-  if (!failed) failed = tree_order(n, x, id, 0, order, err);
-  if (!failed) gather(p, list, in, order, n, y);
-  if (!failed && n <= DIRECT) failed = gravity_direct(n, x, m, h, UNIT_G, a, f, err);
-  if (!failed && n > DIRECT)
-    failed = tree_build(&tree, n, x, m, h, err) || gravity_tree(&tree, x, m, h, &o, a, f, err);
-  for (long k = 0; k < n && !failed; k++) phi[order[k]] = f[k];
-  tree_free(&tree), free(order), free(id), free(y);
-  return failed;
 }
 
 GroupPair group_pair(const double xa[3], const double va[3], double ma, const double xb[3],

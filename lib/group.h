@@ -61,22 +61,23 @@ int group_lists(const Parts *p, const int32_t *id, long groups, long **start, lo
                 Err *err);
 
 /* group_measure: all of the above for list [n]; *g need not be set before and is released by
- * group_free. Own gravity by direct sums for few particles, else by the tree with opening angle
- * theta; theta < 0: e_pot is left NAN. */
+ * group_free. phi [p->n] J/kg, of the particles: the potential that the set makes itself; NULL:
+ * found with the tree's opening angle theta, unless that is < 0: e_pot is left NAN. */
 int group_measure(Group *g, const Parts *p, const long *list, long n, int bodies, double theta,
-                  Err *err);
+                  const double *phi, Err *err);
 void group_free(Group *g);
+
+/* group_all: the same for the groups id [p->n] = 1..groups, malloc'ed [groups]. group_all_free
+ * releases them. */
+Group *group_all(const Parts *p, const int32_t *id, long groups, int bodies, double theta,
+                 const double *phi, Err *err);
+void group_all_free(Group *g, long groups);
 
 /* group_system: the same for all particles, by ascending id. */
 int group_system(Group *g, const Parts *p, double theta, Err *err);
 
 /* group_apart: |a - b|. */
 double group_apart(const double a[3], const double b[3]);
-
-/* group_potential: phi [n] J/kg at particles list [n] made by those with in[k] != 0 (NULL: all),
- * without self-energy. */
-int group_potential(const Parts *p, const long *list, const unsigned char *in, long n, double theta,
-                    double *phi, Err *err);
 
 /* group_pair: the two-body orbit of b about a. */
 GroupPair group_pair(const double xa[3], const double va[3], double ma, const double xb[3],

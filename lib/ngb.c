@@ -216,7 +216,8 @@ static long take(const Share *w, const Search *s, long i, long n, uint32_t *out)
   return found;
 }
 
-static int search_group(Share *w, const Search *s, const TreeGroup *g, int64_t *start)
+/* Appends the neighbours of a group's particles to the list; count [g->count]: how many of each. */
+static int search_group(Share *w, const Search *s, const TreeGroup *g, int64_t *count)
 {
   Box at[2] = {box_of(s->t, s->x, g->first, g->count)};
   if (s->y) at[1] = box_of(s->t, s->y, g->first, g->count);
@@ -232,7 +233,7 @@ static int search_group(Share *w, const Search *s, const TreeGroup *g, int64_t *
     else
       test(w, n, self + k, tau, 0);
     w->hit[self + k] = 0;
-    w->n += start[i + 1] = take(w, s, i, n, w->list + w->n);
+    w->n += count[k] = take(w, s, i, n, w->list + w->n);
   }
   return 0;
 }
@@ -303,12 +304,17 @@ static int search(Ngb *g, const Search *s)
     for (int32_t k = 0; k < t->groups; k++) {
       if (failed) continue;
       place[k] = (Place){me, w->n};
-      failed = search_group(w, s, t->group + k, g->start) != 0;
+      failed = search_group(w, s, t->group + k, g->start + t->group[k].first + 1) != 0;
     }
   }
   failed = failed || gather(g, t, place);
   free(place);
   return failed ? -1 : 0;
+}
+
+static void share_free(Share *w)
+{
+  free(w->list), free(w->pack), free(w->hit), free(w->j), free(w->range);
 }
 
 /* Room for the counts and one share a thread. */
@@ -327,20 +333,49 @@ static int prepare(Ngb *g, long n)
   return 0;
 }
 
+static int bad_particle(long bad, Err *err)
+{
+  return err_set(
+      err, "cannot search neighbours: particle number %ld is not as in the tree (or not finite)",
+      bad);
+}
+
 int ngb_search(Ngb *g, const Tree *t, const double *x, const double *y, const double *h,
                double factor, Err *err)
 {
   Search s = {t, x, y, h, 0.5 * factor, (float)(0.50001 * factor), NULL};
   const long bad = check(&s, t->n);
-  if (bad >= 0)
-    return err_set(
-        err, "cannot search neighbours: particle number %ld is not as in the tree (or not finite)",
-        bad);
+  if (bad >= 0) return bad_particle(bad, err);
   Box *box = y ? boxes_at(t, y) : NULL;
   s.box = box;
   int failed = (y && !box) || prepare(g, t->n) || search(g, &s);
   free(box);
   return failed ? err_set(err, "cannot list the neighbours of %ld particles: no memory", t->n) : 0;
+}
+
+int ngb_each(const Tree *t, const double *x, const double *h, double factor,
+             void (*visit)(long i, const uint32_t *j, long n, void *data), void *data, Err *err)
+{
+  const Search s = {t, x, NULL, h, 0.5 * factor, (float)(0.50001 * factor), NULL};
+  const long bad = check(&s, t->n);
+  int failed = 0;
+  if (bad >= 0) return bad_particle(bad, err);
+#pragma omp parallel reduction(| : failed)
+  {
+    Share w = {0};
+#pragma omp for schedule(dynamic, 4)
+    for (int32_t k = 0; k < t->groups; k++) {
+      int64_t count[TREE_GROUP], at = 0;
+      const TreeGroup *g = t->group + k;
+      w.n = 0;
+      if (failed || (failed = search_group(&w, &s, g, count) != 0)) continue;
+      for (long i = 0; i < g->count; at += count[i++])
+        visit(g->first + i, w.list + at, (long)count[i], data);
+    }
+    share_free(&w);
+  }
+  return failed ? err_set(err, "cannot search the neighbours of %ld particles: no memory", t->n)
+                : 0;
 }
 
 void ngb_point(const Tree *t, const double *x, const double *h, const double x0[3], double radius,
@@ -465,10 +500,7 @@ int ngb_smoothing(const Tree *t, const double *x, int dimension, double want, do
 
 void ngb_free(Ngb *g)
 {
-  for (int k = 0; k < g->shares; k++) {
-    Share *w = g->share + k;
-    free(w->list), free(w->pack), free(w->hit), free(w->j), free(w->range);
-  }
+  for (int k = 0; k < g->shares; k++) share_free(g->share + k);
   free(g->start), free(g->list), free(g->share);
   *g = (Ngb){0};
 }

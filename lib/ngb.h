@@ -25,6 +25,11 @@ typedef struct {
 int ngb_search(Ngb *g, const Tree *t, const double *x, const double *y, const double *h,
                double factor, Err *err);
 
+/* ngb_each: the same neighbours without lists in memory: visit is called once for every particle i
+ * with those of it, j [n], by all threads at once, in any order. */
+int ngb_each(const Tree *t, const double *x, const double *h, double factor,
+             void (*visit)(long i, const uint32_t *j, long n, void *data), void *data, Err *err);
+
 /* ngb_point: calls visit for every particle of the tree with r < max(radius, h_j) of a point x0
  * [3], in tree order; h [n] as the tree was built with, or NULL: r < radius. r2 is r^2. */
 void ngb_point(const Tree *t, const double *x, const double *h, const double x0[3], double radius,

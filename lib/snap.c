@@ -259,10 +259,21 @@ static void *read_array(hid_t particles, const char *name, char kind, long n, in
   return err_null(err, "field '%s': %s", name, why.text);
 }
 
-static int get_fields(hid_t particles, Parts *p, Err *err)
+/* Whether `word` is among the words of a list; NULL holds all. */
+static int listed(const char *list, const char *word)
+{
+  const size_t length = strlen(word);
+  for (const char *s = list; s && *s; s += strcspn(s, " ")) {
+    s += strspn(s, " ");
+    if (strcspn(s, " ") == length && !strncmp(s, word, length)) return 1;
+  }
+  return !list;
+}
+
+static int get_fields(hid_t particles, Parts *p, const char *members, Err *err)
 {
   for (const PartField *f = part_fields; f < part_fields + part_field_count; f++) {
-    if (!hdf_has(particles, f->name)) continue;
+    if (!listed(members, f->member) || !hdf_has(particles, f->name)) continue;
     void *array = read_array(particles, f->name, f->kind, p->n, f->width, err);
     if (!array) return -1;
     part_set_array(p, f, array);
@@ -352,15 +363,16 @@ static herr_t visit(hid_t particles, const char *name, const H5L_info_t *info, v
   return rc ? err_set(e->err, "field '%s': %s", name, why.text) : 0;
 }
 
-static int get_particles(hid_t file, Parts *p, Err *err)
+static int get_particles(hid_t file, Parts *p, const char *members, Err *err)
 {
   if (!hdf_has(file, "PartType0")) return err_set(err, "no snapshot: lacks group 'PartType0'");
   hid_t g = H5Gopen2(file, "PartType0", H5P_DEFAULT);
   if (g < 0) return hdf_fail(err, "'PartType0'");
   Extras e = {p, err};
   err_set(err, "cannot list 'PartType0'");
-  int rc = get_fields(g, p, err) || get_flaws(g, p, err) ||
-           H5Literate(g, H5_INDEX_NAME, H5_ITER_INC, NULL, visit, &e) < 0;
+  int rc = get_fields(g, p, members, err);
+  if (!rc && !members)
+    rc = get_flaws(g, p, err) || H5Literate(g, H5_INDEX_NAME, H5_ITER_INC, NULL, visit, &e) < 0;
   H5Gclose(g);
   return rc ? -1 : 0;
 }
@@ -438,17 +450,19 @@ static int get_numbers(hid_t file, const char *group, Parts *p, const char *list
   return rc;
 }
 
-static int get_all(hid_t file, Parts *p, Err *err)
+static int get_all(hid_t file, Parts *p, const char *members, Err *err)
 {
   return get_header(file, p, err) || get_materials(file, p, err) ||
          hdf_get_strings(file, "History", &p->history, &p->histories, err) ||
          hdf_get_strings(file, "Parameters", &p->parameter, &p->parameters, err) ||
          get_numbers(file, "Collision", p, "collision", err) ||
          get_numbers(file, "Body", p, "body", err) || get_numbers(file, "Run", p, "run", err) ||
-         get_particles(file, p, err);
+         get_particles(file, p, members, err);
 }
 
-Parts *snap_read(const char *path, Err *err)
+Parts *snap_read(const char *path, Err *err) { return snap_read_some(path, NULL, err); }
+
+Parts *snap_read_some(const char *path, const char *members, Err *err)
 {
   Err inner = {""};
   char real[4096];
@@ -458,7 +472,7 @@ Parts *snap_read(const char *path, Err *err)
   if (temporary) unlink(real);
   Parts *p = file < 0 ? NULL : part_new(0);
   if (file >= 0 && !p) err_set(&inner, "out of memory");
-  if (p && get_all(file, p, &inner)) part_free(p), p = NULL;
+  if (p && get_all(file, p, members, &inner)) part_free(p), p = NULL;
   if (file >= 0) H5Fclose(file);
   return p ? p : err_null(err, "cannot read '%s': %s", shown(path, "stdin"), inner.text);
 }

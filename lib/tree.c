@@ -279,6 +279,7 @@ static void set_walk(const Tree *t, int32_t k)
   tree_outward(t, p->lo, p->hi, w->lo, w->hi);
   for (int d = 0; d < 3; d++) w->com[d] = (float)((p->com[d] - t->origin[d]) * scale);
   w->open = (float)(p->size * up * (1 + (whole > 0 ? cbrt(p->mass / whole) : 0)));
+  if (whole > 0 && p->mass <= 0) w->open = 0; /* there is nothing to see in it */
   w->hmax = (float)(p->hmax * up);
   w->first = p->first, w->count = p->count, w->skip = p->skip;
 }

@@ -31,7 +31,8 @@ typedef struct {
 /* What a walk reads of a node, in few bytes: lengths in root edges from the origin; boxes, open and
  * hmax are rounded outwards, so that a walk misses nothing. Node k is a leaf when skip == k + 1. */
 typedef struct {
-  float lo[3], hi[3], com[3], open, hmax; /* open: size (1 + (mass/all mass)^(1/3)) */
+  float lo[3], hi[3], com[3];
+  float open, hmax; /* open: size (1 + (mass/all mass)^(1/3)), 0 for no mass among some */
   int32_t first, count, skip;
 } TreeWalk;
 

@@ -10,10 +10,12 @@
 #include <stdlib.h>
 #include "lib/clump.h"
 #include "lib/group.h"
+#include "lib/potential.h"
 #include "lib/rng.h"
 #include "lib/unit.h"
 
 enum { ROOM = 8000 };
+static double phi[ROOM];
 static const double R = 1e5, RHO = 2000; /* m, kg/m^3 */
 static const ClumpOptions POTENTIAL = {0, CLUMP_KINETIC, 1, 0.5, 20},
                           GROW = {1, CLUMP_KINETIC, 1, 0.5, 20};
@@ -68,13 +70,13 @@ static void cold_sphere_is_bound(void **state)
   static int32_t id[ROOM];
   Parts *p = empty();
   double mass = sphere(p, 0, R, v, 8), level[CLUMP_LEVELS];
-  assert_int_equal(clump_find(p, &POTENTIAL, id, NULL), 1);
+  assert_int_equal(clump_find(p, &POTENTIAL, id, phi, NULL), 1);
   assert_true(fabs(mass_of(p, id, 1) / mass - 1) < 1e-12);
-  assert_int_equal(clump_find(p, &GROW, id, NULL), 1);
+  assert_int_equal(clump_find(p, &GROW, id, phi, NULL), 1);
   assert_true(fabs(mass_of(p, id, 1) / mass - 1) < 1e-12);
   long *start, *list;
   assert_int_equal(group_lists(p, id, 1, &start, &list, NULL), 0);
-  assert_int_equal(clump_levels(p, list, p->n, 0.5, level, NULL), 0);
+  assert_int_equal(clump_levels(p, list, p->n, phi, level, NULL), 0);
   for (int l = 0; l < CLUMP_LEVELS; l++) assert_true(fabs(level[l] / mass - 1) < 1e-12);
   free(start), free(list), done(p);
 }
@@ -93,22 +95,24 @@ static void hot_sphere(void **state)
   ClumpOptions thermal = POTENTIAL, enthalpy = POTENTIAL, grow = GROW;
   thermal.level = grow.level = CLUMP_THERMAL, enthalpy.level = CLUMP_ENTHALPY;
   for (long i = 0; i < p->n; i++) p->u[i] = 1.6 * depth, list[i] = i;
-  assert_int_equal(clump_find(p, &POTENTIAL, id, NULL), 1);
+  assert_int_equal(clump_find(p, &POTENTIAL, id, phi, NULL), 1);
   assert_true(fabs(mass_of(p, id, 1) / mass - 1) < 1e-12);
-  assert_int_equal(clump_find(p, &thermal, id, NULL), 0);
-  assert_int_equal(clump_levels(p, list, p->n, 0.5, level, NULL), 0);
+  assert_int_equal(clump_find(p, &thermal, id, phi, NULL), 0);
+  assert_int_equal(potential_own(p, list, p->n, 0.5, phi, NULL), 0);
+  assert_int_equal(clump_levels(p, list, p->n, phi, level, NULL), 0);
   assert_true(fabs(level[0] / mass - 1) < 1e-12 && level[1] == 0 && level[2] == 0);
   for (long i = 0; i < p->n; i++) p->u[i] = 1.25 * depth;
-  assert_int_equal(clump_levels(p, list, p->n, 0.5, level, NULL), 0);
+  assert_int_equal(clump_levels(p, list, p->n, phi, level, NULL), 0);
   assert_true(fabs(level[1] / mass - pow(2, -1.5)) < 0.05);
   for (long i = 0; i < p->n; i++) p->u[i] = 0, p->p[i] = 1.6 * depth * RHO;
-  assert_int_equal(clump_find(p, &thermal, id, NULL), 1);
-  assert_int_equal(clump_find(p, &enthalpy, id, NULL), 0);
+  assert_int_equal(clump_find(p, &thermal, id, phi, NULL), 1);
+  assert_int_equal(clump_find(p, &enthalpy, id, phi, NULL), 0);
   for (long i = 0; i < p->n; i++) /* tension holds nothing together */
     p->p[i] = -1.6 * depth * RHO, p->u[i] = 1.6 * depth;
-  assert_int_equal(clump_find(p, &enthalpy, id, NULL), 0);
+  assert_int_equal(clump_find(p, &enthalpy, id, phi, NULL), 0);
   free(p->p), p->p = NULL;
-  assert_int_equal(clump_levels(p, list, p->n, 0.5, level, NULL), 0);
+  assert_int_equal(potential_own(p, list, p->n, 0.5, phi, NULL), 0);
+  assert_int_equal(clump_levels(p, list, p->n, phi, level, NULL), 0);
   assert_true(isnan(level[2]) && !isnan(level[1]));
   done(p);
 }
@@ -133,15 +137,15 @@ static void two_spheres(void **state)
     Parts *p = pair(fast ? 1.01 : 0.99, 5 * R, 0);
     long *start, *list;
     Group g[2];
-    assert_int_equal(clump_find(p, &POTENTIAL, id, NULL), 2);
+    assert_int_equal(clump_find(p, &POTENTIAL, id, phi, NULL), 2);
     assert_true(fabs(mass_of(p, id, 1) / mass_of(p, id, 2) - 1) < 1e-12);
     assert_true(mass_of(p, id, 0) == 0);
     assert_int_equal(group_lists(p, id, 2, &start, &list, NULL), 0);
     for (int k = 0; k < 2; k++)
-      group_measure(&g[k], p, list + start[k + 1], start[k + 2] - start[k + 1], 1, -1, NULL);
+      group_measure(&g[k], p, list + start[k + 1], start[k + 2] - start[k + 1], 1, -1, NULL, NULL);
     GroupPair o = group_pair(g[0].x, g[0].v, g[0].mass, g[1].x, g[1].v, g[1].mass);
     assert_int_equal(o.orbit.beta > 0, !fast);
-    assert_int_equal(clump_find(p, &GROW, id, NULL), 2);
+    assert_int_equal(clump_find(p, &GROW, id, phi, NULL), 2);
     group_free(&g[0]), group_free(&g[1]), free(start), free(list), done(p);
   }
 }
@@ -160,7 +164,7 @@ static void bridge(void **state)
     const double v[3] = {speed * x / apart, 0, 0};
     particle(p, x, 0, 0, v, d);
   }
-  assert_int_equal(clump_find(p, &POTENTIAL, id, NULL), 2);
+  assert_int_equal(clump_find(p, &POTENTIAL, id, phi, NULL), 2);
   for (long i = 0; i < n; i++) assert_int_equal(id[i], id[i < n / 2 ? 0 : n - 1]);
   assert_int_not_equal(id[0], id[n - 1]);
   done(p);
@@ -176,9 +180,9 @@ static void moon(void **state)
   const double zero[3] = {0};
   double mass = sphere(p, 0, R, zero, 7), v[3] = {0, sqrt(UNIT_G * mass / (4 * R)), 0};
   double small = sphere(p, 4 * R, 0.3 * R, v, 2);
-  assert_int_equal(clump_find(p, &POTENTIAL, id, NULL), 2);
+  assert_int_equal(clump_find(p, &POTENTIAL, id, phi, NULL), 2);
   assert_true(fabs(mass_of(p, id, 2) / small - 1) < 1e-12);
-  assert_int_equal(clump_find(p, &GROW, id, NULL), 1);
+  assert_int_equal(clump_find(p, &GROW, id, phi, NULL), 1);
   assert_true(fabs(mass_of(p, id, 1) / (mass + small) - 1) < 1e-12);
   done(p);
 }
@@ -197,7 +201,7 @@ static void loose_particles(void **state)
     particle(p, 0, r, 0, v, R / 1000);
   }
   for (int m = 0; m < 2; m++) {
-    assert_int_equal(clump_find(p, m ? &GROW : &POTENTIAL, id, NULL), 1);
+    assert_int_equal(clump_find(p, m ? &GROW : &POTENTIAL, id, phi, NULL), 1);
     for (long i = 0; i < p->n; i++) assert_int_equal(id[i], i < n || (i - n) % 2 == 0);
   }
   done(p);
@@ -211,12 +215,12 @@ static void nothing_bound(void **state)
   const double zero[3] = {0};
   double mass = sphere(p, 0, R, zero, 6), v = 10 * sqrt(2 * UNIT_G * mass / R);
   for (long i = 0; i < 3 * p->n; i++) p->v[i] = v * rng_normal(3, (uint64_t)i, 0);
-  assert_int_equal(clump_find(p, &POTENTIAL, id, NULL), 0);
-  assert_int_equal(clump_find(p, &GROW, id, NULL), 0);
+  assert_int_equal(clump_find(p, &POTENTIAL, id, phi, NULL), 0);
+  assert_int_equal(clump_find(p, &GROW, id, phi, NULL), 0);
   assert_true(mass_of(p, id, 0) > 0.999999 * mass);
   p->n = 1;
-  assert_int_equal(clump_find(p, &POTENTIAL, id, NULL), 0);
-  assert_int_equal(clump_find(p, &GROW, id, NULL), 0);
+  assert_int_equal(clump_find(p, &POTENTIAL, id, phi, NULL), 0);
+  assert_int_equal(clump_find(p, &GROW, id, phi, NULL), 0);
   done(p);
 }
 
@@ -238,16 +242,16 @@ static void invariances(void **state)
   }
   for (int m = 0; m < 2; m++) {
     const ClumpOptions *o = m ? &GROW : &POTENTIAL;
-    long n = clump_find(p, o, id, NULL);
+    long n = clump_find(p, o, id, phi, NULL);
     assert_true(n >= 1 && mass_of(p, id, 0) > 0);
     omp_set_num_threads(1);
-    assert_int_equal(clump_find(p, o, again, NULL), n);
+    assert_int_equal(clump_find(p, o, again, phi, NULL), n);
     assert_memory_equal(id, again, (size_t)p->n * sizeof *id);
     omp_set_num_threads(3);
     for (long i = 0; i < p->n; i++)
       order[i] = (i * 3163) % p->n, p->v[3 * i] += 700, p->v[3 * i + 2] -= 300;
     assert_int_equal(part_permute(p, order, NULL), 0);
-    assert_int_equal(clump_find(p, o, again, NULL), n);
+    assert_int_equal(clump_find(p, o, again, phi, NULL), n);
     for (long i = 0; i < p->n; i++) assert_int_equal(again[i], id[order[i]]);
   }
   omp_set_num_threads(2);

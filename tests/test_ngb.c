@@ -6,6 +6,7 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <cmocka.h>
 #include "cloud.h"
 #include "lib/ngb.h"
@@ -58,6 +59,42 @@ static void lists_equal_brute_force(void **state)
       assert_int_equal(ngb_search(&g, &t, c.x, y, c.h, factor, &err), 0);
       int64_t pairs = check_lists(&g, &c, y, factor);
       if (*n >= 500) assert_true(pairs > 0);
+      cloud_free(&c);
+    }
+  tree_free(&t), ngb_free(&g);
+}
+
+typedef struct {
+  const Ngb *lists;
+  int seen[2000], wrong;
+} Visits;
+
+static void visited(long i, const uint32_t *j, long n, void *data)
+{
+  Visits *s = data;
+  const int64_t b = s->lists->start[i];
+  s->seen[i]++;
+  if (n != s->lists->start[i + 1] - b || memcmp(j, s->lists->list + b, (size_t)n * sizeof *j))
+#pragma omp atomic
+    s->wrong++;
+}
+
+/* Each particle is visited once, with the neighbours of its list. */
+static void each_sees_its_list(void **state)
+{
+  (void)state;
+  Tree t = {0};
+  Ngb g = {0};
+  for (int shape = 0; shape < SHAPES; shape++) FOR_SIZES(n)
+    {
+      static Visits s;
+      Cloud c = cloud_new(shape, *n, 5, 5);
+      s = (Visits){.lists = &g};
+      assert_int_equal(tree_build(&t, c.n, c.x, NULL, c.h, &err), 0);
+      assert_int_equal(ngb_search(&g, &t, c.x, NULL, c.h, 1.2, &err), 0);
+      assert_int_equal(ngb_each(&t, c.x, c.h, 1.2, visited, &s, &err), 0);
+      assert_int_equal(s.wrong, 0);
+      for (long i = 0; i < c.n; i++) assert_int_equal(s.seen[i], 1);
       cloud_free(&c);
     }
   tree_free(&t), ngb_free(&g);
@@ -289,6 +326,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(lists_equal_brute_force),
+      cmocka_unit_test(each_sees_its_list),
       cmocka_unit_test(refitted_trees_serve),
       cmocka_unit_test(the_limit_is_sharp),
       cmocka_unit_test(lattice_shells),

@@ -150,6 +150,25 @@ static void what_is_absent_stays_absent(void **state)
   part_free(q);
 }
 
+static void some_fields(void **state)
+{
+  (void)state;
+  Err err = {""};
+  Parts *p = sample();
+  assert_int_equal(snap_write(p, "a.h5", 1, &err), 0);
+  Parts *q = snap_read_some("a.h5", "id x damage no_such_field", &err);
+  assert_text(err.text, "");
+  for (const PartField *f = part_fields; f < part_fields + part_field_count; f++)
+    assert_int_equal(part_array(q, f) != NULL, !strcmp(f->member, "id") ||
+                                                   !strcmp(f->member, "x") ||
+                                                   !strcmp(f->member, "damage"));
+  assert_memory_equal(q->x, p->x, (size_t)N * 3 * sizeof *p->x);
+  assert_true(!q->nflaw && !q->flaws && !q->extras && q->n == N && q->time == -12.5);
+  assert_names_equal(q, p);
+  part_free(p);
+  part_free(q);
+}
+
 static int same_bytes(const char *a, const char *b)
 {
   FILE *f = fopen(a, "rb"), *g = fopen(b, "rb");
@@ -425,6 +444,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       T(all_comes_back),
       T(what_is_absent_stays_absent),
+      T(some_fields),
       T(same_content_gives_the_same_bytes),
       T(many_chunks_give_the_same_bytes),
       T(header_is_gadgets_without_cosmology),

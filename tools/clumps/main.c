@@ -53,18 +53,18 @@ typedef struct {
   GroupPair pair;         /* about the parent */
 } Body;
 
-static Body *measure(const Parts *p, long n, int bodies, Err *err)
+static Body *measure(const Parts *p, long n, const double *phi, int bodies, Err *err)
 {
   long *start, *list;
   Body *b = calloc((size_t)n + 1, sizeof *b);
-  if (!b || group_lists(p, p->clump, n, &start, &list, err)) return NULL;
+  Group *g = group_all(p, p->clump, n, bodies, arg.theta, phi, err);
+  if (!b || !g || group_lists(p, p->clump, n, &start, &list, err)) return NULL;
   for (long k = 0; k < n; k++) {
-    long *own = list + start[k + 1], count = start[k + 2] - start[k + 1];
-    if (group_measure(&b[k].g, p, own, count, bodies, arg.theta, err)) return NULL;
-    if (clump_levels(p, own, count, arg.theta, b[k].bound, err)) return NULL;
-    b[k].aggregate = k;
+    b[k].g = g[k], b[k].aggregate = k;
+    if (clump_levels(p, list + start[k + 1], start[k + 2] - start[k + 1], phi, b[k].bound, err))
+      return NULL;
   }
-  free(start), free(list);
+  free(start), free(list), free(g);
   return b;
 }
 
@@ -159,7 +159,7 @@ int main(int argc, char **argv)
   if (arg.least < 2) err_usage("--min-particles must be at least 2");
   if (!(arg.theta >= 0 && arg.theta <= 1)) err_usage("--theta must lie in 0..1");
   if (arg.out && !strcmp(arg.out, "-")) err_usage("--output: stdout holds the table: name a file");
-  Parts *p = snap_read(file, &err);
+  Parts *p = snap_read_some(file, arg.out ? NULL : GROUP_FIELDS " p damage", &err);
   if (!p || part_need(p, GROUP_FIELDS, file, &err) || part_check(p, file, &err))
     err_die("%s", err.text);
   ClumpOptions o = {!strcmp(arg.method, "grow"), level(), arg.link, arg.theta, arg.least};
@@ -167,8 +167,10 @@ int main(int argc, char **argv)
   Group system;
   if (part_add(p, "clump", &err) || group_system(&system, p, arg.theta, &err))
     err_die("'%s': %s", file, err.text);
-  long n = clump_find(p, &o, p->clump, &err);
-  Body *b = n < 0 ? NULL : measure(p, n, system.bodies, &err);
+  double *phi = malloc((size_t)p->n * sizeof *phi);
+  if (!phi) err_die("'%s': out of memory", file);
+  long n = clump_find(p, &o, p->clump, phi, &err);
+  Body *b = n < 0 ? NULL : measure(p, n, phi, system.bodies, &err);
   if (!b) err_die("'%s': %s", file, err.text);
   long aggregates = connect(b, n);
   char *command = opt_command_line(argc, argv);
@@ -177,6 +179,6 @@ int main(int argc, char **argv)
   print(p, file, b, n, aggregates, &system);
   err_close_stdout();
   for (long k = 0; k < n; k++) group_free(&b[k].g);
-  free(command), free(b), group_free(&system), part_free(p);
+  free(command), free(b), free(phi), group_free(&system), part_free(p);
   return 0;
 }

@@ -124,22 +124,27 @@ static int by_distance(const void *a, const void *b)
   return p < q ? -1 : p > q;
 }
 
-/* All fragments, however small, by their distance from the barycentre; mass summed from the inside.
- */
+/* All fragments, however small, by their distance from the barycentre; mass summed from the inside,
+ * each fragment in the order of its particles' ids. */
 static Shell *shells(const Parts *p, const int32_t *id, long n, const Group *system, Err *err)
 {
-  long *start, *list;
-  Shell *shell = malloc((size_t)(n + 1) * sizeof *shell);
-  if (!shell || group_lists(p, id, n, &start, &list, err)) return NULL;
-  for (long k = 0; k < n; k++) {
-    Group g;
-    if (group_measure(&g, p, list + start[k + 1], start[k + 2] - start[k + 1], system->bodies, -1,
-                      err))
-      return NULL;
-    shell[k] = (Shell){group_apart(g.x, system->x), g.mass};
-    group_free(&g);
+  Shell *shell = calloc((size_t)n + 1, sizeof *shell);
+  double(*x)[3] = calloc((size_t)n + 1, sizeof *x);
+  long *order = malloc((size_t)p->n * sizeof *order);
+  int failed = !shell || !x || !order ? err_set(err, "out of memory for %ld fragments", n)
+                                      : group_order(p, order, err);
+  for (long o = 0; o < p->n && !failed; o++) {
+    const long i = order[o], k = id[i] - 1;
+    if (k < 0) continue;
+    for (int a = 0; a < 3; a++) x[k][a] += p->m[i] * p->x[3 * i + a];
+    shell[k].mass += p->m[i];
   }
-  free(start), free(list);
+  for (long k = 0; k < n && !failed; k++) {
+    for (int a = 0; a < 3; a++) x[k][a] /= shell[k].mass;
+    shell[k].r = group_apart(x[k], system->x);
+  }
+  free(x), free(order);
+  if (failed) return free(shell), NULL;
   qsort(shell, (size_t)n, sizeof *shell, by_distance);
   for (long k = 1; k < n; k++) shell[k].mass += shell[k - 1].mass;
   return shell;
@@ -162,18 +167,16 @@ static double inside(const Shell *shell, long n, double r)
 static Fragment *measure(const Parts *p, const int32_t *id, long n, const Group *system,
                          const Shell *shell, long shelln, Err *err)
 {
-  long *start, *list;
   Fragment *f = calloc((size_t)n + 1, sizeof *f);
-  if (!f || group_lists(p, id, n, &start, &list, err)) return NULL;
+  Group *g = group_all(p, id, n, system->bodies, arg.theta, NULL, err);
+  if (!f || !g) return NULL;
   for (long k = 0; k < n; k++) {
-    if (group_measure(&f[k].g, p, list + start[k + 1], start[k + 2] - start[k + 1], system->bodies,
-                      arg.theta, err))
-      return NULL;
+    f[k].g = g[k];
     f[k].r = group_apart(f[k].g.x, system->x), f[k].v = group_apart(f[k].g.v, system->v);
     f[k].inside = inside(shell, shelln, f[k].r);
     f[k].v_esc = f[k].inside > 0 ? sqrt(2 * UNIT_G * f[k].inside / f[k].r) : 0;
   }
-  free(start), free(list);
+  free(g);
   return f;
 }
 
@@ -246,7 +249,7 @@ int main(int argc, char **argv)
   char **input = opt_parse(&program, argc, argv, &inputs);
   const char *file = inputs ? input[0] : "-";
   check_arguments();
-  Parts *p = snap_read(file, &err);
+  Parts *p = snap_read_some(file, arg.out ? NULL : GROUP_FIELDS " damage", &err);
   if (!p || part_need(p, GROUP_FIELDS, file, &err) || part_check(p, file, &err))
     err_die("%s", err.text);
   if (arg.damage < INFINITY && part_need(p, "damage", file, &err)) err_die("%s", err.text);
