@@ -109,7 +109,7 @@ fates() { placed "$@" && fof placed.h5 >table && column fate | tr '\n' ' '; }
   render --centre fragment:2 -o x.png ids1.h5
   run render --centre fragment:3 -o y.png ids1.h5
   [ "$status" = 1 ]
-  [ "$output" = "render: 'ids1.h5': nothing belongs to fragment:3" ]
+  [ "$output" = "render: --centre: 'ids1.h5': nothing belongs to fragment:3" ]
   [ ! -e y.png ]
 }
 
