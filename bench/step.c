@@ -56,7 +56,8 @@ static Parts *spheres(long n)
     p->u[i] = 1e3, p->h[i] = cbrt(57 * 3 / (4 * pi) * v);
   }
   if (!(material = material_load(p, &err))) err_die("%s", err.text);
-  need(weibull_assign(p, material, 1, NAN, NAN, &group, &groups, &err));
+  need(weibull_assign(p, material, &(WeibullOptions){.seed = 1, .minimum = 1}, &group, &groups,
+                      &err));
   free(material), free(group), free(text);
   lattice_free(&ball);
   return p;

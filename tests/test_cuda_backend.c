@@ -137,7 +137,9 @@ static Parts *cloud(long n, int dimension)
     p->u[i] = 0.5 + 0.4 * noise((uint64_t)i, 7), p->h[i] = d * (1.7 + 0.3 * noise((uint64_t)i, 8));
   }
   if (!(material = material_load(p, &err))) fail_msg("%s", err.text);
-  assert_return_code(weibull_assign(p, material, 3, NAN, NAN, &group, &groups, &err), 0);
+  assert_return_code(weibull_assign(p, material, &(WeibullOptions){.seed = 3, .minimum = 1}, &group,
+                                    &groups, &err),
+                     0);
   free(group), free(material);
   return p;
 }
@@ -434,7 +436,9 @@ static Parts *impact(double dx)
     p->m[i] = dx * dx * dx, p->rho[i] = 1, p->h[i] = 2.1 * dx, p->u[i] = 1e-3;
   }
   if (!(material = material_load(p, &err))) fail_msg("%s", err.text);
-  assert_return_code(weibull_assign(p, material, 3, NAN, NAN, &group, &groups, &err), 0);
+  assert_return_code(weibull_assign(p, material, &(WeibullOptions){.seed = 3, .minimum = 1}, &group,
+                                    &groups, &err),
+                     0);
   free(group), free(material);
   return p;
 }

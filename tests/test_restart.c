@@ -45,7 +45,9 @@ static Parts *collision(void)
   }
   free(x);
   if (!(material = material_load(p, &err))) fail_msg("%s", err.text);
-  assert_return_code(weibull_assign(p, material, 3, NAN, NAN, &group, &groups, &err), 0);
+  assert_return_code(weibull_assign(p, material, &(WeibullOptions){.seed = 3, .minimum = 1}, &group,
+                                    &groups, &err),
+                     0);
   free(group), free(material);
   return p;
 }

@@ -9,6 +9,7 @@
 #include <cmocka.h>
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_randist.h>
+#include <hdf5.h>
 #include "../lib/rng.h"
 #include "../lib/weibull.h"
 
@@ -36,16 +37,21 @@ static void done(Parts *p)
   part_free(p);
 }
 
-static WeibullGroup assign(Parts *p, const Material *material, uint64_t seed, double k, double m)
+static WeibullGroup assign_by(Parts *p, const Material *material, const WeibullOptions *o)
 {
   WeibullGroup *group, first;
   Err err;
   int n;
-  if (weibull_assign(p, material, seed, k, m, &group, &n, &err)) fail_msg("%s", err.text);
+  if (weibull_assign(p, material, o, &group, &n, &err)) fail_msg("%s", err.text);
   assert_int_equal(n, 1);
   first = group[0];
   free(group);
   return first;
+}
+
+static WeibullGroup assign(Parts *p, const Material *material, uint64_t seed, double k, double m)
+{
+  return assign_by(p, material, &(WeibullOptions){.seed = seed, .k = &k, .m = &m, .minimum = 1});
 }
 
 static int by_value(const void *a, const void *b)
@@ -196,6 +202,7 @@ static void test_groups(void **state)
 {
   Material material[3] = {BASALT, {.mu = 1}, BASALT};
   Parts *p = sphere(900);
+  const WeibullOptions o = {.seed = 1, .minimum = 1};
   WeibullGroup *g;
   Err err;
   int n;
@@ -206,7 +213,7 @@ static void test_groups(void **state)
     p->rho[i] *= 1 + p->body[i];
   material[2].damage.grady_kipp.m = 9;
   for (int pass = 0; pass < 2; pass++) {
-    assert_int_equal(weibull_assign(p, material, 1, NAN, NAN, &g, &n, &err), 0);
+    assert_int_equal(weibull_assign(p, material, &o, &g, &n, &err), 0);
     assert_int_equal(n, 3); /* body 0: materials 0 and 1; body 1: 2, 0, 1, 1 */
     assert_true(g[0].body == 0 && g[0].mat == 0 && g[0].n == 150 && g[0].m == 8.5);
     assert_true(g[1].body == 1 && g[1].mat == 0 && g[1].n == 150);
@@ -222,6 +229,128 @@ static void test_groups(void **state)
   done(p);
 }
 
+/* Each body by its own seed: another seed for one leaves the other as it is. */
+static void test_seeds(void **state)
+{
+  enum { N = 600 };
+  const WeibullSeed own = {1, 7};
+  int32_t counts[2][N];
+  WeibullGroup *g;
+  Err err;
+  int n;
+  (void)state;
+  for (int k = 0; k < 2; k++) {
+    Parts *p = sphere(N);
+    const WeibullOptions o = {.seed = 3, .minimum = 1, .seeds = &own, .bodies = k};
+    for (long i = N / 2; i < N; i++) p->body[i] = 1;
+    assert_int_equal(weibull_assign(p, &BASALT, &o, &g, &n, &err), 0);
+    assert_true(n == 2 && g[0].seed == 3 && g[1].seed == (k ? 7 : 3));
+    memcpy(counts[k], p->nflaw, sizeof counts[k]);
+    free(g), done(p);
+  }
+  assert_memory_equal(counts[0], counts[1], N / 2 * sizeof **counts);
+  assert_true(memcmp(counts[0] + N / 2, counts[1] + N / 2, N / 2 * sizeof **counts));
+}
+
+/* k and m of one material only. */
+static void test_parameters(void **state)
+{
+  Material material[2] = {BASALT, BASALT};
+  const double k[2] = {NAN, 4e35}, m[2] = {NAN, 9};
+  const WeibullOptions o = {.seed = 1, .k = k, .m = m, .minimum = 1};
+  Parts *p = sphere(200);
+  WeibullGroup *g;
+  Err err;
+  int n;
+  (void)state;
+  p->materials = 2;
+  for (long i = 0; i < 100; i++) p->mat[i] = 1;
+  assert_int_equal(weibull_assign(p, material, &o, &g, &n, &err), 0);
+  assert_true(n == 2 && g[0].k == 5e34 && g[0].m == 8.5 && g[1].k == 4e35 && g[1].m == 9);
+  free(g), done(p);
+}
+
+static void add_distention(Parts *p, double alpha)
+{
+  p->extra = calloc(1, sizeof *p->extra), p->extras = 1;
+  *p->extra = (PartExtra){.name = "Distention", .rank = 1, .width = 1, .size = 4, .unit_si = 1};
+  p->extra->type = H5Tcopy(H5T_NATIVE_FLOAT);
+  p->extra->data = malloc((size_t)p->n * 4);
+  for (long i = 0; i < p->n; i++) memcpy(p->extra->data + 4 * i, &(float){(float)alpha}, 4);
+}
+
+/* Pores do not break: twice the volume of the same mass by pores has the same flaws. */
+static void test_pores(void **state)
+{
+  Parts *solid = sphere(300), *porous = sphere(300), *bad = sphere(3);
+  WeibullGroup g, q, *none;
+  const WeibullOptions o = {.seed = 1, .minimum = 1};
+  Err err = {""};
+  int n;
+  (void)state;
+  for (long i = 0; i < 300; i++) porous->rho[i] /= 2;
+  add_distention(porous, 2), add_distention(bad, 0);
+  g = assign(solid, &BASALT, 4, NAN, NAN), q = assign(porous, &BASALT, 4, NAN, NAN);
+  assert_true(g.volume == q.volume && g.flaws == q.flaws && g.lowest == q.lowest);
+  assert_memory_equal(solid->flaw, porous->flaw, (size_t)g.flaws * sizeof(double));
+  assert_int_equal(weibull_assign(bad, &BASALT, &o, &none, &n, &err), -1);
+  assert_non_null(strstr(err.text, "Distention is 0"));
+  done(solid), done(porous), done(bad);
+}
+
+/* The number expected: N H_N for one each; for two and five of each against the mean of 60
+ * throws (their scatter is pi/sqrt(6) N); from a given number on never less than that. */
+static void test_expected(void **state)
+{
+  (void)state;
+  for (long n = 1; n < 100000; n *= 7)
+    assert_true(fabs(weibull_expected(n, 1, 0) / ((double)n * harmonic(n)) - 1) < 1e-9);
+  assert_true(weibull_expected(1, 5, 0) - 5 < 1e-8); /* one particle takes exactly five */
+  for (int minimum = 2; minimum < 6; minimum += 3) {
+    const long n = 400, seeds = 60;
+    double sum = 0, want = weibull_expected(n, minimum, 0) / (double)n;
+    for (long seed = 0; seed < seeds; seed++) {
+      const WeibullOptions o = {.seed = (uint64_t)seed, .minimum = minimum};
+      Parts *p = sphere(n);
+      WeibullGroup g = assign_by(p, &BASALT, &o);
+      assert_true(g.least == minimum && g.expected == want * (double)n);
+      sum += (double)g.flaws / (double)n;
+      done(p);
+    }
+    assert_true(fabs(sum / (double)seeds - want) < 4 * acos(-1) / sqrt(6. * (double)seeds));
+  }
+  assert_true(weibull_expected(1000, 1, 30) >= 30000);
+  assert_true(weibull_expected(1000, 1, 30) < 30000 * (1 + 1e-9)); /* 1000 exp(-30) are left */
+  assert_true(fabs(weibull_expected(1000, 0, 2.5) - 2500) < 1e-9);
+}
+
+/* A number of flaws instead of a minimum: exactly that many; exp(-x) of the particles have none,
+ * and the weakest flaws of the others are as strong as they should be. With one for everyone the
+ * same. */
+static void test_weakest(void **state)
+{
+  const long n = 20000;
+  (void)state;
+  for (int minimum = 0; minimum < 2; minimum++) {
+    const WeibullOptions o = {.seed = 8, .minimum = minimum, .flaws = minimum ? 0 : 1.5};
+    Parts *p = sphere(n);
+    WeibullGroup g = assign_by(p, &BASALT, &o);
+    double sum = 0, share, empty = 0;
+    for (long i = 0, at = 0; i < n; at += p->nflaw[i++])
+      if (p->nflaw[i])
+        sum += p->flaw[at];
+      else
+        empty++;
+    share = minimum ? 0 : exp(-1.5);
+    assert_true(fabs(empty / (double)n - share) <= 4 * sqrt(share * (1 - share) / (double)n));
+    assert_true(fabs(sum / ((double)n - empty) / g.weakest - 1) < 1e-12);
+    /* a Weibull deviate of shape 8.5 scatters by 14 %: 4 standard errors */
+    assert_true(fabs(g.weakest / g.weakest_expected - 1) < 4 * 0.14 / sqrt((double)n));
+    if (!minimum) assert_true(g.flaws == 30000 && g.least == 0);
+    done(p);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -229,6 +358,9 @@ int main(void)
       cmocka_unit_test(test_thresholds), cmocka_unit_test(test_number),
       cmocka_unit_test(test_uniform),    cmocka_unit_test(test_poisson),
       cmocka_unit_test(test_order),      cmocka_unit_test(test_groups),
+      cmocka_unit_test(test_seeds),      cmocka_unit_test(test_parameters),
+      cmocka_unit_test(test_pores),      cmocka_unit_test(test_expected),
+      cmocka_unit_test(test_weakest),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
