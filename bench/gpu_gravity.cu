@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Self-gravity of the CUDA backend: bench/gpu_gravity [N ...]. Two touching close-packed spheres of N
  * particles in all, and a sphere in debris out to 1000 radii; theta 0.7; the tree is the host's.
- * Checks sampled particles against direct sums, then prints times, median of many. */
+ * Checks sampled particles against direct sums, then prints the table, medians of many. */
 #include <algorithm>
 #include "solver/cuda/gravity.cu"
 #include "tests/gravity_lab.cuh"
+extern "C" {
+#include "cost.h"
+}
 
 enum { SAMPLES = 300, TIMES = 20 };
 
@@ -57,16 +60,17 @@ static double measure(GravityLab *l)
   return t[t.size() / 2];
 }
 
-static void row(GravityLab *l, const char *what, int gravity, int precision)
+static void row(GravityLab *l, int gravity, int precision)
 {
-  double median, p99, ms;
+  double median, p99;
+  char name[64];
   lab_run(l, 0.7, gravity, precision);
   check(l, &median, &p99);
-  ms = measure(l);
-  printf("%-8s %9ld %-7s %-7s %9.3f ms %8.3f ns   error %.1e, 99%% %.1e\n", what, l->c.n,
-         gravity == PARAM_TREE ? "tree" : "direct", precision == PARAM_MIXED ? "mixed" : "double",
-         ms, 1e6 * ms / (double)l->c.n, median, p99);
-  fflush(stdout);
+  const Cost cost = cost_of(&l->sim, TIMER_GRAVITY);
+  snprintf(name, sizeof name, "%s %s", gravity == PARAM_TREE ? "tree" : "direct",
+           precision == PARAM_MIXED ? "mixed" : "double");
+  cost_row(name, &cost, 1e6 * measure(l) / (double)l->c.n);
+  printf("# error %.1e, 99%% below %.1e\n", median, p99);
 }
 
 int main(int argc, char **argv)
@@ -78,9 +82,10 @@ int main(int argc, char **argv)
       if (debris && n > 2000000) continue; /* the host's part takes long */
       const char *what = debris ? "debris" : "spheres";
       GravityLab *l = lab_new(lab_spheres(n, debris));
-      row(l, what, PARAM_TREE, PARAM_MIXED), row(l, what, PARAM_TREE, PARAM_DOUBLE);
+      cost_head(what, l->c.n);
+      row(l, PARAM_TREE, PARAM_MIXED), row(l, PARAM_TREE, PARAM_DOUBLE);
       if (n <= 200000 && !debris)
-        row(l, what, PARAM_DIRECT, PARAM_MIXED), row(l, what, PARAM_DIRECT, PARAM_DOUBLE);
+        row(l, PARAM_DIRECT, PARAM_MIXED), row(l, PARAM_DIRECT, PARAM_DOUBLE);
       lab_free(l);
     }
   return 0;

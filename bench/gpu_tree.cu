@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Order, tree and lists of the CUDA backend: bench/gpu_tree [N ...]. A sphere of N particles on a
  * jittered lattice, 57 neighbours each, moving by a hundredth of a spacing a step. Checks lists of
- * sampled particles against all pairs, then prints the time of each part, median of many steps. */
+ * sampled particles against all pairs, then prints the table of the parts, medians of many steps. */
 #include <algorithm>
 #include "tests/tree_lab.cuh"
+extern "C" {
+#include "cost.h"
+}
 
 enum { SAMPLES = 100, STEPS = 40 };
 
@@ -106,10 +109,11 @@ static void bench(long wanted)
     }
   }
   const char *name[] = {"order", "tree", "lists"};
+  const Cost cost[] = {cost_order(sim), cost_tree(), cost_of(sim, TIMER_SEARCH)};
+  cost_head("sphere", l->n);
   for (int k = 0; k < 3; k++) {
     std::sort(t[k].begin(), t[k].end());
-    const double ms = t[k][t[k].size() / 2];
-    printf("%9ld  %-6s %8.3f ms %7.3f ns\n", l->n, name[k], ms, 1e6 * ms / (double)l->n);
+    cost_row(name[k], cost + k, 1e6 * t[k][t[k].size() / 2] / (double)l->n);
   }
   free(c.x), free(c.y), free(c.m), free(c.h), free(c.id);
   tree_lab_close(l);

@@ -2,8 +2,9 @@
 /* Whole steps of the solver: bench/step [N] [solid|hydro] [DEVICE] [KEY=VALUE...]. Two touching
  * spheres of N particles together (basalt: Tillotson, strength, flaws; hydro: no strength),
  * self-gravity at theta 0.7, 57 neighbours. Checks one evaluation on samples against all pairs and
- * direct sums, then times 20 steps after 5 (a GPU: 100 after 20) and prints the median step and,
- * from as many steps again, the table of passes. */
+ * direct sums, then times 20 steps after 5 (a GPU: 100 after 20, and one for bench/ncu) and prints
+ * the median step and, from as many steps again, the table of passes. */
+#include <dlfcn.h>
 #include <math.h>
 #include <omp.h>
 #include <stdio.h>
@@ -14,7 +15,7 @@
 #include "lib/lattice.h"
 #include "lib/material.h"
 #include "lib/weibull.h"
-#include "solver/profile.h"
+#include "cost.h"
 
 enum { SAMPLES = 100, MOST = 100 };
 
@@ -150,32 +151,37 @@ static double advance(Sim *sim, int steps, double *core)
   return spent[steps / 2];
 }
 
-/* What an H200 cannot do faster [ns a particle], and what bounds it there. Sorting at 15 Gkey/s and
- * moving 364 B, in and out; a list of 57 numbers written; gathers of 2 + 6 records (hydro: 2 + 2)
- * of 16 bytes a neighbour through L1, one line a clock, 13.6 lines a warp; 61 kflop of gravity in
- * single precision; what the local passes and the limits read and write. HBM at 4.3 TB/s. */
-typedef struct {
-  double solid, hydro;
-  const char *bound;
-} Floor;
-static const Floor floors[TIMERS] = {
-    [TIMER_ORDER] = {0.24, 0.24, "HBM"},   [TIMER_SEARCH] = {0.05, 0.05, "HBM"},
-    [TIMER_A] = {0.21, 0.21, "L1 gather"}, [TIMER_LOCAL] = {0.23, 0.12, "HBM"},
-    [TIMER_B] = {0.62, 0.21, "L1 gather"}, [TIMER_GRAVITY] = {0.9, 0.9, "fp32"},
-    [TIMER_REDUCE] = {0.04, 0.04, "HBM"}};
-
-static void print_floors(const Sim *sim, int steps)
+/* The table of passes: of a card beside what it cannot do faster. */
+static void print_passes(const Sim *sim, int steps)
 {
-  double sum = 0;
-  printf("# pass\tfloor of an H200 in ns a particle\tratio\tbound by (mixed precision)\n");
-  for (int t = 0; t < TIMERS; t++) {
-    const double floor = sim->solid ? floors[t].solid : floors[t].hydro,
-                 ns = 1e9 * sim->timer[t].spent / (double)sim->s.n / steps;
-    if (!(floor > 0 && ns > 0)) continue;
-    sum += floor;
-    printf("%s\t%.2f\t%.1f\t%s\n", profile_names[t], floor, ns / floor, floors[t].bound);
+  const double n = (double)sim->s.n;
+  double all = 0, least = 0;
+  Cost sum = {0, 0, 0, 0};
+  if (sim->b == &backend_cpu) {
+    profile_print(sim, steps, stdout);
+    return;
   }
-  printf("all\t%.2f\n", sum);
+  cost_head(sim->solid ? "solid" : "hydro", sim->s.n);
+  for (int t = 0; t < TIMERS; t++) {
+    const Cost c = cost_of(sim, t);
+    const double ns = 1e9 * sim->timer[t].spent / n / steps;
+    if (!sim->timer[t].calls) continue;
+    all += ns, sum.bytes += c.bytes, sum.flops += c.flops;
+    least += cost_row(profile_names[t], &c, ns);
+  }
+  printf("all\t%.3f\t%.0f\t%.0f\t%.3f\t%.1f\n", all, sum.bytes / all, sum.flops / all, least,
+         all / least);
+}
+
+/* Tells a profiler that waits for it (ncu --profile-from-start off) to begin, or to end. */
+static void profiler(const char *call)
+{
+  void *driver = dlopen("libcuda.so.1", RTLD_LAZY);
+  int (*function)(void);
+  if (!driver) return;
+  *(void **)&function = dlsym(driver, call);
+  if (function) function();
+  dlclose(driver);
 }
 
 int main(int argc, char **argv)
@@ -194,6 +200,7 @@ int main(int argc, char **argv)
   check(&sim);
   const int cpu = sim.b == &backend_cpu, steps = cpu ? 20 : 100;
   advance(&sim, steps / 5, &core);
+  if (!cpu) profiler("cuProfilerStart"), advance(&sim, 1, &core), profiler("cuProfilerStop");
   step = advance(&sim, steps, &core);
   printf("# %s and gravity, %.0f particles, %.1f flaws each, on %s\n", hydro ? "hydro" : "solid", n,
          (double)p->flaws / n, sim.about);
@@ -202,8 +209,7 @@ int main(int argc, char **argv)
   sim.profile = 1;
   memset(sim.timer, 0, sizeof sim.timer);
   printf("\n# the median with the passes timed: %.3f ms\n", 1e3 * advance(&sim, steps, &core));
-  profile_print(&sim, steps, stdout);
-  if (!cpu) print_floors(&sim, steps);
+  print_passes(&sim, steps);
   sim_close(&sim);
   part_free(p);
   return 0;
