@@ -118,7 +118,8 @@ static double lateness(double s, void *wanted)
   return point(w->orbit, s).t - w->t;
 }
 
-/* s < sc at the time t < t(sc) <= 0, the time of sc: dt/ds = r bounds it from below. */
+/* s at the time t before sc, where r = rc is least. The bracket grows from there to earlier times,
+ * to the apoapsis at most. */
 static double at_time(const Orbit *o, double t, double sc, double rc)
 {
   Wanted wanted = {o, t};

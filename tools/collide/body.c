@@ -76,8 +76,9 @@ static int choose(Body *b, const char *select, Err *err)
 
 int body_measure(Body *b, Err *err)
 {
+  Err why;
   group_free(&b->g);
-  if (group_system(&b->g, b->p, -1, err)) return -1;
+  if (group_system(&b->g, b->p, -1, &why)) return err_set(err, "'%s': %s", b->file, why.text);
   b->reach = 0;
   for (long i = 0; i < b->p->n; i++)
     b->reach = fmax(b->reach, group_apart(b->p->x + 3 * i, b->g.x));
