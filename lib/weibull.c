@@ -43,26 +43,36 @@ static Member *members(const Parts *p, const Material *material, long *n)
 
 typedef struct {
   double n, minimum;
+  int moment;
 } Wanted;
 
-/* Chance that n particles with t flaws each on average are not all served. */
+/* Chance that n particles with t flaws each on average are not all served, times t^moment. */
 static double unserved(double t, void *wanted)
 {
   const Wanted *w = wanted;
-  return -expm1(w->n * log1p(-gsl_cdf_poisson_P((unsigned)w->minimum - 1, t)));
+  double few = gsl_cdf_poisson_P((unsigned)w->minimum - 1, t);
+  return (w->moment ? t : 1) * -expm1(w->n * log1p(-few));
 }
 
-double weibull_expected(long n, long minimum, double flaws)
+/* With throws at random times, one a unit of time and particle, the last needed has a time of mean
+ * and mean square integral Q dt and 2 integral t Q dt, Q the above; their number's variance is that
+ * of the time without the times' own. */
+double weibull_expected(long n, long minimum, double flaws, double *scatter)
 {
-  Wanted wanted = {(double)n, (double)minimum};
+  Wanted wanted = {.n = (double)n, .minimum = (double)minimum};
   gsl_function f = {unserved, &wanted};
   gsl_integration_workspace *w = minimum > 0 ? gsl_integration_workspace_alloc(200) : NULL;
-  double end = flaws + 1, sum = 0, error;
+  double end = flaws + 1, sum[2] = {0}, error, mean;
+  *scatter = 0;
   if (!w) return minimum > 0 ? NAN : flaws * (double)n;
   while (unserved(end, &wanted) > 1e-16) end *= 1.5;
-  gsl_integration_qag(&f, flaws, end, 0, 1e-10, 200, GSL_INTEG_GAUSS61, w, &sum, &error);
+  for (; wanted.moment < 2; wanted.moment++)
+    gsl_integration_qag(&f, flaws, end, 0, 1e-10, 200, GSL_INTEG_GAUSS61, w, sum + wanted.moment,
+                        &error);
   gsl_integration_workspace_free(w);
-  return (double)n * (flaws + sum);
+  mean = flaws + sum[0];
+  *scatter = wanted.n * sqrt(fmax(flaws * flaws + 2 * sum[1] - mean * mean - mean / wanted.n, 0));
+  return wanted.n * mean;
 }
 
 /* Mean of the weakest flaw's threshold: its number is geometrically distributed with 1/n, nearly
@@ -98,7 +108,7 @@ static void count(const Parts *p, WeibullGroup *g, const Member *member, const W
   }
   g->lowest = weibull_threshold(1, g->k, g->m, g->volume);
   g->highest = weibull_threshold(g->flaws, g->k, g->m, g->volume);
-  g->expected = weibull_expected(g->n, o->minimum, o->flaws);
+  g->expected = weibull_expected(g->n, o->minimum, o->flaws, &g->scatter);
   g->weakest_expected = expected_weakest(g, o->minimum);
 }
 

@@ -31,11 +31,11 @@ typedef struct {
   double volume; /* of the solid, sum m/(rho distention) [m^3] */
   double k, m;   /* Weibull parameters [1/m^3, 1] */
   uint64_t seed;
-  int64_t flaws;          /* thrown */
-  double expected;        /* flaws thrown on average over all seeds */
-  int32_t least, most;    /* flaws of a particle */
-  double lowest, highest; /* thresholds (strain) */
-  double weakest;         /* threshold of a particle's weakest flaw, mean of those that have one */
+  int64_t flaws;            /* thrown */
+  double expected, scatter; /* flaws thrown: mean and standard deviation over all seeds */
+  int32_t least, most;      /* flaws of a particle */
+  double lowest, highest;   /* thresholds (strain) */
+  double weakest; /* threshold of a particle's weakest flaw, mean of those that have one */
   double weakest_expected;
 } WeibullGroup;
 
@@ -45,9 +45,9 @@ double weibull_threshold(int64_t j, double k, double m, double volume);
 
 /* weibull_expected: how many flaws are thrown at n particles on average, N integral_0^inf
  * 1 - (1 - P(fewer than `minimum` of t))^N dt with P of Poisson's distribution, from `flaws` a
- * particle on (exact for flaws = 0; N H_N for a minimum of 1). Source: Newman & Shepp (1960), Amer.
- * Math. Monthly 67, 58. */
-double weibull_expected(long n, long minimum, double flaws);
+ * particle on, and their standard deviation (both exact for flaws = 0; N H_N and nearly
+ * pi/sqrt(6) N for a minimum of 1). Source: Newman & Shepp (1960), Amer. Math. Monthly 67, 58. */
+double weibull_expected(long n, long minimum, double flaws, double *scatter);
 
 /* weibull_assign: sets nflaw and flaw of all particles, and damage (and nact, if there) to zero.
  * Flaw j of a group goes to the particle that a random number keyed by (seed, j, group) chooses

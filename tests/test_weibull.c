@@ -303,12 +303,18 @@ static void test_pores(void **state)
 static void test_expected(void **state)
 {
   (void)state;
-  for (long n = 1; n < 100000; n *= 7)
-    assert_true(fabs(weibull_expected(n, 1, 0) / ((double)n * harmonic(n)) - 1) < 1e-9);
-  assert_true(weibull_expected(1, 5, 0) - 5 < 1e-8); /* one particle takes exactly five */
+  double scatter;
+  for (long n = 1; n < 100000; n *= 7) {
+    double variance = 0; /* of a sum of geometric numbers: sum (1 - p)/p^2, p = k/n */
+    for (long k = 1; k < n; k++) variance += (double)n * (double)(n - k) / ((double)k * (double)k);
+    assert_true(fabs(weibull_expected(n, 1, 0, &scatter) / ((double)n * harmonic(n)) - 1) < 1e-9);
+    assert_true(fabs(scatter - sqrt(variance)) < 1e-6 * (double)n + 1e-3);
+  }
+  assert_true(weibull_expected(1, 5, 0, &scatter) - 5 < 1e-8); /* one particle takes exactly five */
+  assert_true(scatter < 1e-3);
   for (int minimum = 2; minimum < 6; minimum += 3) {
     const long n = 400, seeds = 60;
-    double sum = 0, want = weibull_expected(n, minimum, 0) / (double)n;
+    double sum = 0, want = weibull_expected(n, minimum, 0, &scatter) / (double)n;
     for (long seed = 0; seed < seeds; seed++) {
       const WeibullOptions o = {.seed = (uint64_t)seed, .minimum = minimum};
       Parts *p = sphere(n);
@@ -319,9 +325,10 @@ static void test_expected(void **state)
     }
     assert_true(fabs(sum / (double)seeds - want) < 4 * acos(-1) / sqrt(6. * (double)seeds));
   }
-  assert_true(weibull_expected(1000, 1, 30) >= 30000);
-  assert_true(weibull_expected(1000, 1, 30) < 30000 * (1 + 1e-9)); /* 1000 exp(-30) are left */
-  assert_true(fabs(weibull_expected(1000, 0, 2.5) - 2500) < 1e-9);
+  assert_true(weibull_expected(1000, 1, 30, &scatter) >= 30000);
+  assert_true(weibull_expected(1000, 1, 30, &scatter) <
+              30000 * (1 + 1e-9)); /* 1000 exp(-30) are left */
+  assert_true(fabs(weibull_expected(1000, 0, 2.5, &scatter) - 2500) < 1e-9);
 }
 
 /* A number of flaws instead of a minimum: exactly that many; exp(-x) of the particles have none,

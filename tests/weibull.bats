@@ -28,7 +28,7 @@ column() {
   [ "$(column least) $(column most)" = "$(head -1 counts) $(tail -1 counts)" ]
   true_that 'near(low, a, 1e-8) && near(high, b, 1e-8) && near(each, flaws/n, 1e-5) && memory == 8*flaws + 4*n' n="$n" flaws="$(wc -l <flaws)" \
     low="$(column lowest)" high="$(column highest)" a="$(head -1 flaws)" b="$(tail -1 flaws)" each="$(column "per particle")" memory="$(column memory)"
-  true_that 'near(want, n*(log(n) + 0.5772156649) + 0.5, 1e-6) && abs(flaws - want) < 4*n' n="$n" flaws="$(wc -l <flaws)" want="$(column expected)"
+  true_that 'near(want, n*(log(n) + 0.5772156649) + 0.5, 1e-6) && abs(flaws - want) < 4*sd && near(sd, 1.28*n, 0.05)' sd="$(column scatter)" n="$n" flaws="$(wc -l <flaws)" want="$(column expected)"
   # (N/(k V))^(1/m) Gamma(1 + 1/8.5)
   true_that 'near(got, want, 0.02) && near(want, low*n^(1/8.5)*0.945, 0.001)' n="$n" got="$(column weakest)" want="$(column expected+)" low="$(column lowest)"
   [ "$(awk '{n += $1} END {print n}' counts)" = "$(wc -l <flaws)" ]

@@ -41,36 +41,40 @@ static const double MOST_FLAWS = 1e4; /* a particle */
 
 static void table(const Parts *p, const WeibullGroup *group, int groups)
 {
-  fprintf(stderr, "# body\tmaterial\tparticles\tvolume [m^3]\tk [1/m^3]\tm\tseed\tflaws\texpected\t"
-                  "per particle\tleast\tmost\tlowest\thighest\tweakest\texpected\tmemory [B]\n");
+  fprintf(
+      stderr,
+      "# body\tmaterial\tparticles\tvolume [m^3]\tk [1/m^3]\tm\tseed\tflaws\texpected\tscatter\t"
+      "per particle\tleast\tmost\tlowest\thighest\tweakest\texpected\tmemory [B]\n");
   for (const WeibullGroup *g = group; g < group + groups; g++)
-    fprintf(
-        stderr,
-        "%d\t%s\t%ld\t%.9g\t%.9g\t%.9g\t%llu\t%lld\t%.9g\t%.6g\t%d\t%d\t%.9g\t%.9g\t%.6g\t%.6g\t"
-        "%lld\n",
-        g->body, p->material[g->mat].name, g->n, g->volume, g->k, g->m, (unsigned long long)g->seed,
-        (long long)g->flaws, g->expected, (double)g->flaws / (double)g->n, g->least, g->most,
-        g->lowest, g->highest, g->weakest, g->weakest_expected,
-        (long long)(g->flaws * (int64_t)sizeof *p->flaw + g->n * (long)sizeof *p->nflaw));
+    fprintf(stderr,
+            "%d\t%s\t%ld\t%.9g\t%.9g\t%.9g\t%llu\t%lld\t%.9g\t%.4g\t%.6g\t%d\t%d\t%.9g\t%.9g\t%."
+            "6g\t%.6g\t"
+            "%lld\n",
+            g->body, p->material[g->mat].name, g->n, g->volume, g->k, g->m,
+            (unsigned long long)g->seed, (long long)g->flaws, g->expected, g->scatter,
+            (double)g->flaws / (double)g->n, g->least, g->most, g->lowest, g->highest, g->weakest,
+            g->weakest_expected,
+            (long long)(g->flaws * (int64_t)sizeof *p->flaw + g->n * (long)sizeof *p->nflaw));
 }
 
 /* All groups in one line, and what is odd about one of them. */
 static void summary(const Parts *p, const WeibullGroup *group, int groups)
 {
-  double expected = 0, lowest = INFINITY;
+  double expected = 0, variance = 0, lowest = INFINITY;
   long n = 0;
   for (const WeibullGroup *g = group; g < group + groups; g++) {
-    expected += g->expected, n += g->n, lowest = fmin(lowest, g->lowest);
+    expected += g->expected, variance += g->scatter * g->scatter, n += g->n,
+        lowest = fmin(lowest, g->lowest);
     if (g->highest > 1)
       err_warn("%s of body %d: thresholds up to %.3g: k V is small for %ld particles",
                p->material[g->mat].name, g->body, g->highest, g->n);
   }
-  fprintf(
-      stderr,
-      "weibull: %lld flaws (%.6g expected) for %ld particles, %.4g each, lowest threshold %.4g, "
-      "%.3g MB\n",
-      (long long)p->flaws, expected, n, (double)p->flaws / (double)n, lowest,
-      ((double)p->flaws * sizeof *p->flaw + (double)n * sizeof *p->nflaw) / 1e6);
+  fprintf(stderr,
+          "weibull: %lld flaws (%.0f +- %.0f expected) for %ld particles, %.4g each, lowest "
+          "threshold %.4g, "
+          "%.3g MB\n",
+          (long long)p->flaws, expected, sqrt(variance), n, (double)p->flaws / (double)n, lowest,
+          ((double)p->flaws * sizeof *p->flaw + (double)n * sizeof *p->nflaw) / 1e6);
 }
 
 /* The number behind NAME: of an entry; *name is NULL without one. Points into a copy of text. */
