@@ -61,6 +61,13 @@ HD void passes_keep_stress(double *s, Sym t)
   s[0] = t.xx, s[1] = t.xy, s[2] = t.xz, s[3] = t.yy, s[4] = t.yz, s[5] = t.zz;
 }
 
+/* passes_own_stress: S of particle i; none when it is no solid. */
+HD Sym passes_own_stress(const State *s, long i, int solid)
+{
+  const Sym none = {0, 0, 0, 0, 0, 0};
+  return solid ? passes_stress(&s->s[6 * i]) : none;
+}
+
 /* passes_jaumann: dS/dt = 2 mu (e - tr e/3) + R S - S R, R = (g - g^T)/2. Corrects the sign of 001
  * eq. 9 (docs/theory.md 9). */
 HD Sym passes_jaumann(Sym s, const double *g, double mu)
@@ -187,7 +194,7 @@ HD void passes_pack(const State *s, const Step *k, long i, int solid, double dt)
   double left = 1 - s->damage[i], p = s->p[i], *t = &s->t[9 * i];
   double size = k->density == 2 ? s->m[i] / s->rho[i] : 1 / s->rho[i]; /* 2: miscible */
   s->push[i] = (p < 0 ? left * p : p) * size * size;
-  for (int d = 0; d < 9 && !solid; d++) t[d] = 0;
+  for (int d = 0; d < 9 && !solid && s->t; d++) t[d] = 0;
   if (solid) {
     Sym c = passes_rotate(passes_stress(&s->cm[6 * i]), &s->g[9 * i], dt);
     tensor_product(tensor_scale(passes_stress(&s->s[6 * i]), left), c, t);
@@ -273,7 +280,7 @@ HD void pass_advance(const State *s, const Step *k, long i)
   const double *g = &s->g[9 * i], mu = k->strength ? s->material[s->mat[i]].mu : 0;
   int solid = mu > 0;
   double p = s->p[i], u = s->u[i], heat = k->energy == 0 ? s->dqdt[i] : 0, work;
-  Sym old = passes_stress(&s->s[6 * i]), mid = old;
+  Sym old = passes_own_stress(s, i, solid), mid = old;
   passes_density(s, k, i);
   if (solid) {
     Sym now = passes_elastic(old, g, mu, k->dt);
@@ -329,7 +336,7 @@ HD void pass_finish(const State *s, const Step *k, long i)
   if (k->energy == 1) s->u[i] = s->ue[i];
   if (s->u[i] < k->energy_floor) s->u[i] = k->energy_floor;
   s->dudt[i] = s->du[i];
-  s->dqdt[i] = s->du[i] - passes_work(s->p[i], passes_stress(&s->s[6 * i]), s->damage[i],
+  s->dqdt[i] = s->du[i] - passes_work(s->p[i], passes_own_stress(s, i, mu > 0), s->damage[i],
                                       s->divv[i], &s->g[9 * i], s->rho[i], mu > 0);
   if (s->p[i] > s->pmax[i]) s->pmax[i] = s->p[i];
   if (k->smoothing && k->dt > 0)
@@ -472,7 +479,7 @@ HD int pass_bad(const State *s, long i)
     if (!isfinite(s->v[3 * i + d])) return BAD_VELOCITY;
     if (!isfinite(s->a[3 * i + d])) return BAD_ACCELERATION;
   }
-  for (int d = 0; d < 6; d++) sum += s->s[6 * i + d];
+  for (int d = 0; d < 6 && s->s; d++) sum += s->s[6 * i + d];
   if (!isfinite(sum)) return BAD_STRESS;
   if (!(s->rho[i] > 0) || !isfinite(s->rho[i])) return BAD_DENSITY;
   if (!isfinite(s->u[i])) return BAD_ENERGY;

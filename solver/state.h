@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The particles as the solver sees them: one array a field, made from lib/fields.h, plus work
  * arrays that no file holds. Pointers live where the backend lives (host or device); everything
- * here compiles in C and CUDA. Arrays are in tree order. */
+ * here compiles in C and CUDA. Arrays are in tree order. Those of stress (s, g, cm, t, strain), of
+ * flaws and of rates (ds) may be NULL where a run has no solids, no damage, no use for rates. */
 #ifndef STATE_H
 #define STATE_H
 

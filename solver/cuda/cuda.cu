@@ -35,27 +35,30 @@ static int cuda_cards(void)
   return cudaGetDeviceCount(&n) == cudaSuccess ? n : 0;
 }
 
-/* Bytes that the run takes. */
-static size_t wanted(Sim *sim, const Parts *p)
+size_t cuda_bytes(Sim *sim, const Parts *p)
 {
   return cuda_state_bytes(sim, p) + cuda_store_bytes(sim) + cuda_order_bytes(sim) +
-         cuda_tree_bytes(sim) + cuda_lists_bytes(sim) + cuda_loops_bytes(sim) +
-         cuda_gravity_bytes(sim);
+         cuda_tree_bytes(sim) + cuda_lists_bytes(sim, p) + cuda_loops_bytes(sim) +
+         cuda_gravity_bytes(sim) + cuda_reduce_bytes();
 }
 
 /* The card by name, and whether the particles fit; a little is left for what is not counted. */
 static int look_at_card(Sim *sim, const Parts *p, Err *err)
 {
-  const size_t rest = (size_t)1 << 27, need = wanted(sim, p), each = need / (size_t)p->n + 1;
-  CudaError *error = &cuda_of(sim)->error;
+  Cuda *c = cuda_of(sim);
+  CudaError *error = &c->error;
+  const size_t rest = (size_t)1 << 27;
   cudaDeviceProp card;
-  size_t available = 0, total = 0;
+  size_t available = 0, total = 0, need, each;
   int driver = 0;
   memset(&card, 0, sizeof card);
   CHECK(cudaGetDeviceProperties(&card, sim->card));
   CHECK(cudaDriverGetVersion(&driver));
   CHECK(cudaMemGetInfo(&available, &total));
+  c->ample = 1, need = cuda_bytes(sim, p);
+  if (need > available / 2) c->ample = 0, need = cuda_bytes(sim, p);
   if (launch_failed(error, err)) return -1;
+  each = need / (size_t)p->n + 1;
   snprintf(sim->about, sizeof sim->about,
            "cuda:%d, %.100s (compute %d.%d, driver %d.%d), %.4g of %.4g GB, %zu B a particle",
            sim->card, card.name, card.major, card.minor, driver / 1000, driver % 1000 / 10,

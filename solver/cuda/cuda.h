@@ -49,7 +49,8 @@ typedef struct {
   int4 *link;  /* [nodes] x: first child, y: children (0: leaf), z: first particle, w: particles */
   float4 *lo;  /* [nodes] box; w: size, the longest edge of the smallest cell */
   float4 *hi;  /* [nodes] box; w: h_max */
-  float4 *com; /* [nodes] centre of mass, rounded; w: mass */
+  float4 *com; /* [nodes] centre of mass, rounded; w: mass; this and the next two: if gravity
+                  walks the tree */
   Pole *pole;  /* [nodes] */
   double *moment; /* [nodes][10] SI, for the upward pass */
   char2 *span;    /* [n] levels: x: common with the particle before, y: of its leaf */
@@ -80,7 +81,6 @@ typedef struct {
   PairRun run;
   struct CudaOrder *order;     /* private to order.cu */
   struct CudaTree *build;      /* private to tree.cu */
-  struct CudaSearch *search;   /* private to search.cu */
   struct CudaLoops *loops;     /* private to loops.cu */
   struct CudaGravity *gravity; /* private to gravity.cu */
   struct CudaReduce *reduce;   /* private to reduce.cu */
@@ -88,15 +88,17 @@ typedef struct {
   struct CudaClock *clock;     /* private to clock.cu */
   double *flaw;                /* all thresholds */
   Material *material;
-  size_t bytes; /* allocated so far */
+  size_t bytes; /* allocated at present */
+  int ample;    /* memory is: whole orders and whole files find room to be copied at once */
 } Cuda;
 
 static inline Cuda *cuda_of(const Sim *sim) { return (Cuda *)sim->own; }
 
 /* cuda_alloc: zeroed memory of the card; -1 with a message that says what is missing. cuda_free:
- * NULL is fine. */
+ * NULL is fine. cuda_give: frees what was allocated as bytes, in the middle of a run. */
 int cuda_alloc(Sim *sim, void **at, size_t bytes, Err *err);
 void cuda_free(void *at);
+void cuda_give(Sim *sim, void **at, size_t bytes);
 
 /* cuda_state_open: from parts: the arrays of the state, each an allocation of its own (so that
  * pointers may be exchanged with others as long), points, thresholds, materials, code units. Arrays
@@ -105,18 +107,18 @@ int cuda_state_open(Sim *sim, const Parts *parts, Err *err);
 size_t cuda_state_bytes(Sim *sim, const Parts *parts);
 void cuda_state_close(Sim *sim);
 
-/* cuda_columns: the arrays of the state that are there, those that move with their particles first;
- * returns how many these are, *all: how many in all. */
+/* cuda_columns: the arrays of the state that this run has, those that move with their particles
+ * first; returns how many these are, *all: how many in all. What the others hold is lost in a
+ * search. */
 typedef struct {
-  void **array;     /* where the State has its pointer */
-  int width, size;  /* elements a particle, bytes an element: 4 or 8 */
-  const char *name; /* of the member */
+  void **array;    /* where the State has its pointer */
+  int width, size; /* elements a particle, bytes an element: 4 or 8 */
 } CudaColumn;
 enum { CUDA_COLUMNS = 128 };
 int cuda_columns(Sim *sim, CudaColumn column[CUDA_COLUMNS], int *all);
 
 /* cuda_store, cuda_fetch: see struct backend. cuda_copy: waits. */
-size_t cuda_store_bytes(const Sim *sim);
+size_t cuda_store_bytes(Sim *sim);
 int cuda_store_open(Sim *sim, Err *err);
 int cuda_store(Sim *sim, Parts *parts, Err *err);
 int cuda_fetch(Sim *sim, Parts *parts, Err *err);
@@ -134,15 +136,15 @@ void cuda_clock_close(Sim *sim);
  * (also after a failed open); steps return 0 or -1 with a message. Steps that return nothing leave
  * a failure in `error`, which the next step that returns something reports. No step but cuda_lists
  * and the reductions waits for the device. */
-size_t cuda_order_bytes(const Sim *sim);
+size_t cuda_order_bytes(Sim *sim);
 int cuda_order_open(Sim *sim, Err *err);
 int cuda_order(Sim *sim, Err *err); /* root, keys, sort, permutation; then points x */
 void cuda_order_close(Sim *sim);
-size_t cuda_tree_bytes(const Sim *sim);
+size_t cuda_tree_bytes(Sim *sim);
 int cuda_tree_open(Sim *sim, Err *err);
-int cuda_tree(Sim *sim, Err *err); /* nodes, boxes, moments from points x and the state */
+int cuda_tree(Sim *sim, Err *err); /* nodes, boxes, poles */
 void cuda_tree_close(Sim *sim);
-size_t cuda_lists_bytes(const Sim *sim);
+size_t cuda_lists_bytes(const Sim *sim, const Parts *parts);
 int cuda_lists_open(Sim *sim, Err *err);
 int cuda_lists(Sim *sim, Err *err); /* exact; grows them and repeats when they are too short */
 void cuda_lists_close(Sim *sim);
@@ -156,11 +158,16 @@ size_t cuda_gravity_bytes(const Sim *sim);
 int cuda_gravity_open(Sim *sim, Err *err);
 int cuda_gravity(Sim *sim, Err *err); /* tree or direct: pull and phi, added to acc */
 void cuda_gravity_close(Sim *sim);
+size_t cuda_reduce_bytes(void);
 int cuda_reduce_open(Sim *sim, Err *err);
 int cuda_limits(Sim *sim, const Step *step, Limits *out, Err *err);
 int cuda_sums(Sim *sim, Sums *out, Err *err);
 int cuda_bodies(Sim *sim, Step *step, Err *err);
 int cuda_error(Sim *sim, const Step *step, double *worst, Err *err);
 void cuda_reduce_close(Sim *sim);
+
+/* cuda_bytes: what a run of these particles takes of the card, by `ample` and the sum of all parts;
+ * neighbour lists by the particles' h and density. */
+size_t cuda_bytes(Sim *sim, const Parts *parts);
 
 #endif

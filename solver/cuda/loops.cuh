@@ -11,7 +11,7 @@
 
 enum { THREADS = 128, CROWD = 128 };
 
-/* One loop's records: two vectors and up to four quads. */
+/* The records: loop A's are x and v, loop B's x and up to four quads, where v is otherwise. */
 typedef struct {
   Places x, v;
   Quad *q[4];
@@ -19,6 +19,7 @@ typedef struct {
 
 struct CudaLoops {
   Records r;
+  char *room; /* all of them */
 };
 
 /* What every kernel of a loop needs. */
@@ -72,7 +73,7 @@ template <int solid> static __global__ void pack_body(Loop a)
   place_set(a.r.x, i, (x[0] - a.root->origin[0]) * il, (x[1] - a.root->origin[1]) * il,
             (x[2] - a.root->origin[2]) * il, (real)(s.h[i] * il), (real)(s.m[i] / a.unit.mass));
   quad_set(a.r.q[0], i, v[0] * iv, v[1] * iv, v[2] * iv, s.rho[i] / a.rho);
-  quad_set(a.r.q[1], i, s.cs[i] * iv, s.cl[i] * iv, s.push[i] * a.push, t[0] * it);
+  quad_set(a.r.q[1], i, s.cs[i] * iv, s.cl[i] * iv, s.push[i] * a.push, solid ? t[0] * it : 0);
   if (!solid) return;
   quad_set(a.r.q[2], i, t[1] * it, t[2] * it, t[3] * it, t[4] * it);
   quad_set(a.r.q[3], i, t[5] * it, t[6] * it, t[7] * it, t[8] * it);
@@ -365,26 +366,27 @@ static void force(Sim *sim)
            line ? &force_line[miscible] : &force_stamps[sim->par.kernel][solid + 2 * miscible]);
 }
 
-/* Quads and places come in eights. */
-static size_t room(const Sim *sim) { return ((size_t)sim->s.n + 7) / 8 * 8; }
+/* Where arrays of one quad a particle may begin. */
+static size_t rows_of(const Sim *sim) { return ((size_t)sim->s.n + 31) / 32 * 32; }
 
 static size_t bytes(const Sim *sim)
 {
-  const size_t quads = sim->solid || sim->s.dimension == 1 ? 4 : 2;
-  return room(sim) * (2 * PLACE_BYTES + quads * sizeof(Quad));
+  const size_t quads = (sim->solid || sim->s.dimension == 1 ? 4 : 2) * sizeof(Quad),
+               place = PLACE_BYTES;
+  return rows_of(sim) * (place + (quads > place ? quads : place));
 }
 
 static int loops_open(Sim *sim, Err *err)
 {
   Cuda *c = cuda_of(sim);
-  const size_t n = room(sim);
-  const int quads = sim->solid || sim->s.dimension == 1 ? 4 : 2;
+  const size_t n = rows_of(sim);
   c->loops = (struct CudaLoops *)calloc(1, sizeof *c->loops);
   if (!c->loops) return err_set(err, "not enough memory");
-  if (places_alloc(sim, &c->loops->r.x, n, err) || places_alloc(sim, &c->loops->r.v, n, err))
-    return -1;
-  for (int k = 0; k < quads; k++)
-    if (cuda_alloc(sim, (void **)&c->loops->r.q[k], n * sizeof(Quad), err)) return -1;
+  if (cuda_alloc(sim, (void **)&c->loops->room, bytes(sim), err)) return -1;
+  Records *r = &c->loops->r;
+  char *second = c->loops->room + n * PLACE_BYTES;
+  r->x = places_at(c->loops->room, n), r->v = places_at(second, n);
+  for (int k = 0; k < 4; k++) r->q[k] = (Quad *)second + (size_t)k * n;
   return 0;
 }
 
@@ -392,8 +394,7 @@ static void loops_close(Sim *sim)
 {
   Cuda *c = cuda_of(sim);
   if (!c->loops) return;
-  places_free(&c->loops->r.x), places_free(&c->loops->r.v);
-  for (int k = 0; k < 4; k++) cuda_free(c->loops->r.q[k]);
+  cuda_free(c->loops->room);
   free(c->loops);
   c->loops = NULL;
 }

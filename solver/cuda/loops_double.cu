@@ -49,18 +49,10 @@ static __device__ PairVector place_between(Place a, Place b)
   return r;
 }
 
-static int places_alloc(Sim *sim, Places *p, size_t n, Err *err)
+static Places places_at(void *room, size_t n)
 {
-  return cuda_alloc(sim, (void **)&p->at, n * sizeof(Quad), err) ||
-                 cuda_alloc(sim, (void **)&p->w, n * sizeof(double), err)
-             ? -1
-             : 0;
-}
-
-static void places_free(Places *p)
-{
-  cuda_free(p->at), cuda_free(p->w);
-  p->at = NULL, p->w = NULL;
+  const Places p = {(Quad *)room, (double *)((Quad *)room + n)};
+  return p;
 }
 
 #include "loops.cuh"

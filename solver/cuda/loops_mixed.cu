@@ -41,18 +41,10 @@ static __device__ PairVector place_between(Place a, Place b)
   return r;
 }
 
-static int places_alloc(Sim *sim, Points *p, size_t n, Err *err)
+static Points places_at(void *room, size_t n)
 {
-  return cuda_alloc(sim, (void **)&p->hi, n * sizeof(float4), err) ||
-                 cuda_alloc(sim, (void **)&p->lo, n * sizeof(float4), err)
-             ? -1
-             : 0;
-}
-
-static void places_free(Points *p)
-{
-  cuda_free(p->hi), cuda_free(p->lo);
-  p->hi = p->lo = NULL;
+  const Points p = {(float4 *)room, (float4 *)room + n};
+  return p;
 }
 
 #include "loops.cuh"

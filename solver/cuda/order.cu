@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The order of the particles: root cube, keys, sort, and everything into the new order. The sort
- * looks at as many digits of the keys as the last tree had levels, and two more; particles that
- * agree in these are put in order of key and id afterwards, so the order depends on nothing else.
- * Columns are written to spare memory, two halves in turn, and exchanged with it. */
+ * looks at as many digits of the keys as the last tree had levels, and at two
+ * more; particles that agree in these are put in order of key and id afterwards,
+ * so the order depends on nothing else. Columns are written to spare memory and exchanged with it.
+ * Arrays whose content nobody needs any more are spare; there are others for what these cannot take
+ * in one turn or, where memory is not ample, in two. */
 #include <cub/cub.cuh>
 #include "tree.cuh"
 extern "C" {
 #include "../../lib/rng.h"
 }
 
-enum { THREADS = 256, SPAN = 192, SPANS = 512, MOVES = 64, HALVES = 2 };
+enum { THREADS = 256, SPAN = 192, SPANS = 512, MOVES = 64 };
 static __device__ const double FAR = 1e150; /* squares of coordinates must stay finite */
 
 /* A box and the first bad coordinate of each direction, 3 i + d. */
@@ -179,13 +181,36 @@ static __device__ void gather_words(const Moves &m, int c, const uint32_t *at, l
         ((const uint32_t *)m.move[c].from)[(size_t)at[k / words] * words + k % words];
 }
 
+/* Where points go, and what they are made of, which has been moved. */
+typedef struct {
+  const double *x, *h, *m;
+  const Root *root;
+  Units unit;
+  Points to; /* hi NULL: nobody needs them */
+} PointsOf;
+
+/* The point of particle i: hi + lo in code units from the root's origin. */
+static __device__ __forceinline__ void make_point(const PointsOf &p, long i)
+{
+  const double il = 1 / p.unit.length;
+  float hi[3], lo[3];
+#pragma unroll
+  for (int d = 0; d < 3; d++) {
+    const double v = (p.x[3 * i + d] - p.root->origin[d]) * il;
+    hi[d] = __double2float_rn(v), lo[d] = __double2float_rn(v - (double)hi[d]);
+  }
+  p.to.hi[i] = make_float4(hi[0], hi[1], hi[2], __double2float_rn(p.h[i] * il));
+  p.to.lo[i] = make_float4(lo[0], lo[1], lo[2], __double2float_rn(p.m[i] / p.unit.mass));
+}
+
 static __global__ void __launch_bounds__(THREADS)
-    permute(const __grid_constant__ Moves m, const uint32_t *from, long n)
+    permute(const __grid_constant__ Moves m, const __grid_constant__ PointsOf p,
+            const uint32_t *from, long n)
 {
   __shared__ uint32_t at[THREADS];
   const long base = (long)blockIdx.x * THREADS;
-  const int count = (int)min((long)THREADS, n - base);
-  if ((int)threadIdx.x < count) at[threadIdx.x] = from[base + threadIdx.x];
+  const int count = (int)min((long)THREADS, n - base), t = (int)threadIdx.x;
+  if (t < count) at[t] = from[base + t];
   __syncthreads();
   for (int c = 0; c < m.moves; c++) {
     const int bytes = m.move[c].bytes, more = m.moves - c;
@@ -200,63 +225,69 @@ static __global__ void __launch_bounds__(THREADS)
     else
       gather_words(m, c, at, base, count);
   }
+  if (!p.to.hi) return;
+  __syncthreads();
+  if (t < count) make_point(p, base + t);
 }
 
-/* Points x: hi + lo in code units from the root's origin. */
-static __global__ void make_points(const __grid_constant__ State s, const Root *root, Units unit,
-                                   Points p)
-{
-  const long i = (long)blockIdx.x * THREADS + threadIdx.x;
-  const double il = 1 / unit.length;
-  double v[3];
-  if (i >= s.n) return;
-#pragma unroll
-  for (int d = 0; d < 3; d++) v[d] = (s.x[3 * i + d] - root->origin[d]) * il;
-  float hi[3], lo[3];
-#pragma unroll
-  for (int d = 0; d < 3; d++)
-    hi[d] = __double2float_rn(v[d]), lo[d] = __double2float_rn(v[d] - (double)hi[d]);
-  p.hi[i] = make_float4(hi[0], hi[1], hi[2], __double2float_rn(s.h[i] * il));
-  p.lo[i] = make_float4(lo[0], lo[1], lo[2], __double2float_rn(s.m[i] / unit.mass));
-}
+static int bytes_of(const CudaColumn *c) { return c->width * c->size; }
 
 /* Columns by size, in place: four 8-byte columns in a row move faster. */
-static int columns_of(Sim *sim, CudaColumn column[CUDA_COLUMNS])
+static int columns_of(Sim *sim, CudaColumn column[CUDA_COLUMNS], int *all)
 {
-  int all;
-  const int n = cuda_columns(sim, column, &all);
+  const int n = cuda_columns(sim, column, all);
   for (int a = 1; a < n; a++) {
     const CudaColumn c = column[a];
     int b = a;
-    for (; b > 0 && column[b - 1].width * column[b - 1].size > c.width * c.size; b--)
-      column[b] = column[b - 1];
+    for (; b > 0 && bytes_of(column + b - 1) > bytes_of(&c); b--) column[b] = column[b - 1];
     column[b] = c;
   }
   return n;
 }
 
-/* Moves one half of the columns of each size: those that still find a spare. */
-static void permute_half(Sim *sim, CudaColumn *column, int columns)
+/* Where memory of that many bytes a particle has its pointer: an array that is free or a spare that
+ * has not been used in this turn; NULL: nowhere. */
+static void **spare_of(struct CudaOrder *o, const CudaColumn *idle, int idles, char *used,
+                       int bytes)
+{
+  for (int k = 0; k < idles + o->spares; k++) {
+    const int size = k < idles ? bytes_of(idle + k) : o->spare[k - idles].bytes;
+    if (used[k] || size != bytes) continue;
+    used[k] = 1;
+    return k < idles ? idle[k].array : &o->spare[k - idles].at;
+  }
+  return NULL;
+}
+
+/* Moves the columns that find a spare and takes them off the list; returns how many are left. The
+ * last turn makes points. */
+static int permute_some(Sim *sim, CudaColumn *column, int columns, const CudaColumn *idle,
+                        int idles)
 {
   Cuda *c = cuda_of(sim);
   CudaError *error = &c->error;
-  struct CudaOrder *o = c->order;
-  int used[ORDER_SPARES] = {0};
+  char used[2 * CUDA_COLUMNS] = {0};
+  PointsOf p = {NULL, NULL, NULL, c->root, c->unit, {NULL, NULL}};
   Moves m;
+  int left = 0;
   m.moves = 0;
   for (int k = 0; k < columns; k++) {
-    const int bytes = column[k].width * column[k].size;
-    int f = 0;
-    while (f < o->spares && (used[f] || o->spare[f].bytes != bytes)) f++;
-    if (f == o->spares || !column[k].array || m.moves == MOVES) continue;
+    const int bytes = bytes_of(column + k);
+    void **spare = m.moves < MOVES ? spare_of(c->order, idle, idles, used, bytes) : NULL;
+    if (!spare) {
+      column[left++] = column[k];
+      continue;
+    }
     void *old = *column[k].array;
-    m.move[m.moves].from = old, m.move[m.moves].to = o->spare[f].at;
+    m.move[m.moves].from = old, m.move[m.moves].to = *spare;
     m.move[m.moves++].bytes = bytes;
-    *column[k].array = o->spare[f].at, o->spare[f].at = old, used[f] = 1;
-    column[k].array = NULL;
+    *column[k].array = *spare, *spare = old;
   }
-  LAUNCH(permute, launch_blocks((size_t)sim->s.n, THREADS), THREADS, 0, c->stream, m, o->from[0],
-         sim->s.n);
+  p.x = sim->s.x, p.h = sim->s.h, p.m = sim->s.m;
+  if (!left) p.to = c->x;
+  LAUNCH(permute, launch_blocks((size_t)sim->s.n, THREADS), THREADS, 0, c->stream, m, p,
+         c->order->from[0], sim->s.n);
+  return left;
 }
 
 /* Sorts keys and where they come from; what is sorted is then key[0], from[0]. */
@@ -286,7 +317,8 @@ int cuda_order(Sim *sim, Err *err)
   const unsigned blocks = launch_blocks((size_t)n, THREADS);
   unsigned spans = launch_blocks(3 * (size_t)n, 4 * SPAN);
   CudaColumn column[CUDA_COLUMNS];
-  const int columns = columns_of(sim, column);
+  int all, columns = columns_of(sim, column, &all);
+  const int moved = columns;
   Draw draw;
   for (uint32_t d = 0; d < 3; d++) draw.at[d] = rng_uniform(hilbert_shift(sim->step), 0, d);
   if (spans > SPANS) spans = SPANS;
@@ -294,42 +326,43 @@ int cuda_order(Sim *sim, Err *err)
          c->root, o->report);
   LAUNCH(make_keys, blocks, THREADS, 0, c->stream, sim->s.x, n, c->root, o->key[0], o->from[0]);
   sort_keys(c, n, sim->s.id);
-  for (int half = 0; half < HALVES; half++) permute_half(sim, column, columns);
-  LAUNCH(make_points, blocks, THREADS, 0, c->stream, sim->s, c->root, c->unit, c->x);
+  while (columns > 0) columns = permute_some(sim, column, columns, column + moved, all - moved);
   return launch_failed(error, err);
 }
 
-/* Spares: for half of the columns of each size. */
-static int open_spares(Sim *sim, Err *err)
+/* The spares of this run by their sizes: what arrays that are free cannot take. */
+static int spares_of(Sim *sim, int bytes[CUDA_COLUMNS])
 {
-  struct CudaOrder *o = cuda_of(sim)->order;
   CudaColumn column[CUDA_COLUMNS];
-  const int columns = columns_of(sim, column);
+  int all, spares = 0;
+  const int columns = columns_of(sim, column, &all), turns = cuda_of(sim)->ample ? 1 : 2;
   for (int a = 0, b; a < columns; a = b) {
-    const int bytes = column[a].width * column[a].size;
-    for (b = a; b < columns && column[b].width * column[b].size == bytes;) b++;
-    for (int k = 0; k < (b - a + HALVES - 1) / HALVES; k++) {
-      Spare *s = o->spare + o->spares++;
-      s->bytes = bytes;
-      if (cuda_alloc(sim, &s->at, ((size_t)sim->s.n * bytes + 255) / 256 * 256, err)) return -1;
-    }
+    const int size = bytes_of(column + a);
+    for (b = a; b < columns && bytes_of(column + b) == size;) b++;
+    int lack = (b - a + turns - 1) / turns;
+    for (int k = columns; k < all; k++) lack -= bytes_of(column + k) == size;
+    for (; lack > 0; lack--) bytes[spares++] = size;
   }
-  return 0;
+  return spares;
 }
 
-size_t cuda_order_bytes(const Sim *sim)
+static size_t sort_bytes(Sim *sim)
 {
-  size_t row = 0;
-#define ORDER_ROW(TYPE, MEMBER, WIDTH, ...) row += sizeof(TYPE) * (WIDTH);
-  ALL_FIELDS(ORDER_ROW)
-  MOVED_FIELDS(ORDER_ROW)
-#undef ORDER_ROW
-  for (int k = 0; k < sim->slots; k++) {
-#define ORDER_SLOT(MEMBER, WIDTH) row += sizeof(double) * (WIDTH);
-    SAVED_FIELDS(ORDER_SLOT)
-#undef ORDER_SLOT
-  }
-  return (size_t)sim->s.n * (row / HALVES + 2 * (8 + 4)) + (1 << 20);
+  cub::DoubleBuffer<uint64_t> key(NULL, NULL);
+  cub::DoubleBuffer<uint32_t> from(NULL, NULL);
+  CudaError *error = &cuda_of(sim)->error;
+  size_t bytes = 0;
+  CHECK(cub::DeviceRadixSort::SortPairs(NULL, bytes, key, from, (int)sim->s.n, 0,
+                                        3 * HILBERT_LEVELS, cuda_of(sim)->stream));
+  return bytes;
+}
+
+size_t cuda_order_bytes(Sim *sim)
+{
+  int bytes[CUDA_COLUMNS];
+  size_t row = 2 * (sizeof(uint64_t) + sizeof(uint32_t));
+  for (int k = spares_of(sim, bytes); k-- > 0;) row += (size_t)bytes[k];
+  return (size_t)sim->s.n * row + sort_bytes(sim) + SPANS * sizeof(Extent);
 }
 
 int cuda_order_open(Sim *sim, Err *err)
@@ -338,14 +371,11 @@ int cuda_order_open(Sim *sim, Err *err)
   CudaError *error = &c->error;
   const size_t n = (size_t)sim->s.n;
   struct CudaOrder *o = (struct CudaOrder *)calloc(1, sizeof *o);
+  int bytes[CUDA_COLUMNS];
   if (!o) return err_set(err, "not enough memory");
-  c->order = o, o->levels = HILBERT_LEVELS;
-  cub::DoubleBuffer<uint64_t> key(NULL, NULL);
-  cub::DoubleBuffer<uint32_t> from(NULL, NULL);
-  if (CHECK(cub::DeviceRadixSort::SortPairs(NULL, o->sort_bytes, key, from, (int)n, 0,
-                                            3 * HILBERT_LEVELS, c->stream)) ||
-      CHECK(cudaMallocHost((void **)&o->host, sizeof *o->host)))
-    return launch_failed(error, err);
+  c->order = o, o->levels = HILBERT_LEVELS, o->sort_bytes = sort_bytes(sim);
+  CHECK(cudaMallocHost((void **)&o->host, sizeof *o->host));
+  if (launch_failed(error, err)) return -1;
   for (int k = 0; k < 2; k++)
     if (cuda_alloc(sim, (void **)&o->key[k], n * 8, err) ||
         cuda_alloc(sim, (void **)&o->from[k], n * 4, err))
@@ -356,7 +386,13 @@ int cuda_order_open(Sim *sim, Err *err)
       cuda_alloc(sim, (void **)&c->root, sizeof *c->root, err) ||
       cuda_alloc(sim, (void **)&o->report, sizeof *o->report, err))
     return -1;
-  return open_spares(sim, err);
+  const int spares = spares_of(sim, bytes);
+  for (; o->spares < spares; o->spares++) {
+    Spare *s = o->spare + o->spares;
+    s->bytes = bytes[o->spares];
+    if (cuda_alloc(sim, &s->at, n * (size_t)s->bytes, err)) return -1;
+  }
+  return 0;
 }
 
 void cuda_order_close(Sim *sim)

@@ -171,15 +171,21 @@ int cuda_error(Sim *sim, const Step *step, double *worst, Err *err)
   return 0;
 }
 
+static size_t part_bytes(void)
+{
+  const size_t one = sizeof(ReduceSums), all = BODIES * sizeof(ReduceSpin);
+  return BLOCKS * (one > all ? one : all);
+}
+
+size_t cuda_reduce_bytes(void) { return part_bytes() + sizeof(Results); }
+
 int cuda_reduce_open(Sim *sim, Err *err)
 {
   Cuda *c = cuda_of(sim);
   CudaError *error = &c->error;
-  size_t largest = sizeof(ReduceSums) > BODIES * sizeof(ReduceSpin) ? sizeof(ReduceSums)
-                                                                    : BODIES * sizeof(ReduceSpin);
   if (!(c->reduce = (struct CudaReduce *)calloc(1, sizeof *c->reduce)))
     return err_set(err, "not enough memory");
-  if (cuda_alloc(sim, &c->reduce->part, BLOCKS * largest, err)) return -1;
+  if (cuda_alloc(sim, &c->reduce->part, part_bytes(), err)) return -1;
   if (cuda_alloc(sim, (void **)&c->reduce->device, sizeof(Results), err)) return -1;
   CHECK(cudaMallocHost((void **)&c->reduce->host, sizeof(Results)));
   return launch_failed(error, err);

@@ -39,10 +39,6 @@ typedef struct {
   Lists out;
 } Search;
 
-struct CudaSearch {
-  long rows; /* taken by the last search */
-};
-
 /* Where a piece of the warp's particles lies. */
 typedef struct {
   int centre[3];         /* place */
@@ -441,26 +437,32 @@ static __global__ void __launch_bounds__(THREADS, 5) search_groups(const __grid_
   if (group * CUDA_GROUP >= a.s.n || *a.nodes > a.room) return;
   Piece p;
   Result r = {(uint32_t)(group * CUDA_GROUP), NULL, 0, false};
-  for (bool done = false; !done;) {
+#pragma unroll 1
+  for (int pass = 0; pass == 0 || (pass == 1 && r.again); pass++) {
     search_pieces(a, w, &p, &r, on, i);
-    done = !r.again || r.rows;
-    if (!r.rows) {
-      int mine = r.k;
-      for (int t = 0; t < p.tiles; t++) mine += __popc(w->hit[32 * t + lane]);
-      if (on) a.out.count[i] = mine;
-      if (!take_rows(a, group, mine, &r.rows)) return;
-      r.k = 0;
-    }
+    if (pass > 0) continue;
+    int mine = r.k;
+    for (int t = 0; t < p.tiles; t++) mine += __popc(w->hit[32 * t + lane]);
+    if (on) a.out.count[i] = mine;
+    if (!take_rows(a, group, mine, &r.rows)) return;
+    r.k = 0;
   }
   empty_tiles(w, &p, r.rows, &r.k);
 }
 
-static int grow_list(Sim *sim, int64_t room, Err *err)
+/* Room for that many rows and an eighth more, or for them alone where that is too much. */
+static int grow_list(Sim *sim, int64_t rows, Err *err)
 {
   Lists *l = &cuda_of(sim)->lists;
-  cuda_free(l->list), l->list = NULL, l->room = 0;
-  if (cuda_alloc(sim, (void **)&l->list, (size_t)room * sizeof *l->list, err)) return -1;
-  l->room = room;
+  const size_t row = CUDA_GROUP * sizeof *l->list, most = (size_t)(rows + rows / 8) + 64;
+  cuda_give(sim, (void **)&l->list, (size_t)l->room * sizeof *l->list);
+  l->room = 0;
+  if (!cuda_alloc(sim, (void **)&l->list, most * row, err)) {
+    l->room = (int64_t)most * CUDA_GROUP;
+  } else {
+    if (cuda_alloc(sim, (void **)&l->list, (size_t)rows * row, err)) return -1;
+    l->room = rows * CUDA_GROUP;
+  }
   return 0;
 }
 
@@ -491,42 +493,42 @@ int cuda_lists(Sim *sim, Err *err)
     CHECK(cudaStreamSynchronize(c->stream));
     if (launch_failed(error, err) || bad_particle(r, err)) return -1;
     if (r->nodes > c->tree.room) {
-      if (cuda_tree_grow(sim, r->nodes + r->nodes / 4L, err) || cuda_tree(sim, err)) return -1;
-    } else if ((int64_t)r->rows * 32 > c->lists.room) {
-      if (grow_list(sim, (int64_t)(r->rows + r->rows / 8 + 64) * 32, err)) return -1;
+      if (cuda_tree_grow(sim, r->nodes + r->nodes / 8L, err) || cuda_tree(sim, err)) return -1;
+    } else if ((int64_t)r->rows * CUDA_GROUP > c->lists.room) {
+      if (grow_list(sim, (int64_t)r->rows, err)) return -1;
     } else {
       break;
     }
   }
   c->tree.nodes = r->nodes, c->tree.levels = r->deepest + 1;
   o->levels = min(r->deepest + 2, (int)HILBERT_LEVELS);
-  c->search->rows = (long)r->rows;
   return 0;
 }
 
-/* Rows that a group takes, to begin with: half as many again as the neighbours that are wanted. */
-static int64_t first_list(const Sim *sim)
+/* What the lists will take: neighbours in the kernel's volume at the particles' own h and density
+ * (of at most a million), and the eighth of grow_list. */
+size_t cuda_lists_bytes(const Sim *sim, const Parts *p)
 {
-  const double want = sim->par.neighbours > 0 ? sim->par.neighbours : 60;
-  return (int64_t)(1.5 * want + 1) * (sim->s.n + CUDA_GROUP);
+  static const double ball[] = {0, 2, 3.14159265358979, 4.18879020478639};
+  const long stride = p->n / 1000000 + 1;
+  const double most = (double)p->n - 1, d = p->dimension;
+  const size_t n = (size_t)sim->s.n;
+  double sum = 0, seen = 0;
+  for (long i = 0; i < p->n; i += stride, seen++)
+    sum += fmin(most, ball[p->dimension] * pow(p->h[i], d) * p->rho[i] / p->m[i]);
+  return (size_t)(1.125 * sum / seen * (double)(n + CUDA_GROUP)) * sizeof(uint32_t) +
+         n * sizeof(int) + (n / CUDA_GROUP + 2) * sizeof(int64_t);
 }
 
-size_t cuda_lists_bytes(const Sim *sim)
-{
-  return (size_t)first_list(sim) * 4 + (size_t)sim->s.n * 4 +
-         ((size_t)sim->s.n / CUDA_GROUP + 2) * 8;
-}
-
+/* The list itself begins with what the first search counts. */
 int cuda_lists_open(Sim *sim, Err *err)
 {
   Cuda *c = cuda_of(sim);
   const size_t n = (size_t)sim->s.n;
-  c->search = (struct CudaSearch *)calloc(1, sizeof *c->search);
-  if (!c->search) return err_set(err, "not enough memory");
-  if (cuda_alloc(sim, (void **)&c->lists.start, (n / CUDA_GROUP + 2) * 8, err) ||
-      cuda_alloc(sim, (void **)&c->lists.count, n * 4, err))
-    return -1;
-  return grow_list(sim, first_list(sim), err);
+  return cuda_alloc(sim, (void **)&c->lists.start, (n / CUDA_GROUP + 2) * sizeof(int64_t), err) ||
+                 cuda_alloc(sim, (void **)&c->lists.count, n * sizeof(int), err)
+             ? -1
+             : 0;
 }
 
 void cuda_lists_close(Sim *sim)
@@ -534,6 +536,4 @@ void cuda_lists_close(Sim *sim)
   Cuda *c = cuda_of(sim);
   cuda_free(c->lists.start), cuda_free(c->lists.count), cuda_free(c->lists.list);
   memset(&c->lists, 0, sizeof c->lists);
-  free(c->search);
-  c->search = NULL;
 }

@@ -29,12 +29,41 @@ void cuda_free(void *at)
   if (at) cudaFree(at);
 }
 
-/* Arrays of the state that no pass of this run reads or writes. */
-static int idle(const Sim *sim, const char *name)
+void cuda_give(Sim *sim, void **at, size_t bytes)
 {
-  if (strcmp(name, "frag") == 0 || strcmp(name, "clump") == 0) return 1; /* what only tools know */
-  if (strcmp(name, "delta") == 0) return sim->par.density == PARAM_CONTINUITY;
-  return strcmp(name, "ds") == 0 && sim->slots == 0;
+  if (*at) cuda_of(sim)->bytes -= rounded(bytes ? bytes : 1);
+  cuda_free(*at);
+  *at = NULL;
+}
+
+/* Whether name is one of the words. */
+static int among(const char *words, const char *name)
+{
+  const size_t length = strlen(name);
+  for (const char *at = words; (at = strstr(at, name)); at += length)
+    if ((at == words || at[-1] == ' ') && (at[length] == ' ' || !at[length])) return 1;
+  return 0;
+}
+
+enum { IDLE, WORK, MOVED };
+
+/* What an array is for in this run: nothing (no pass reads or writes it), for an evaluation only,
+ * or what moves with its particle. Leapfrog makes many anew between a search and the next look at
+ * them; other integrators keep all. */
+static int role_of(const Sim *sim, const char *name, int role)
+{
+  const Param *p = &sim->par;
+  const int pulls = p->gravity != PARAM_NONE, fresh = p->gravity_every == 1,
+            solid = sim->solid || sim->s.dimension == 1;
+  if (among("frag clump", name)) return IDLE; /* what only tools know */
+  if (p->density == PARAM_CONTINUITY && among("delta", name)) return IDLE;
+  if (!pulls && fresh && among("pull", name)) return IDLE;
+  if (sim->slots > 0) return role;
+  if (among("ds", name)) return IDLE;
+  if (!solid && among("s strain g cm t", name)) return IDLE;
+  if (!(sim->solid && p->damage) && among("nact dcrack nflaw flaw0", name)) return IDLE;
+  if (among("cs a divv delta signal dcrack nngb", name)) return WORK;
+  return pulls && fresh && among("phi pull", name) ? WORK : role;
 }
 
 /* The thresholds that this run looks at. */
@@ -43,48 +72,46 @@ static size_t flaws_of(const Sim *sim, const Parts *p)
   return sim->solid && sim->par.damage ? (size_t)p->flaws : 0;
 }
 
-/* All columns, there or not; those that move with their particles first. */
-static int columns_of(Sim *sim, CudaColumn *c, int *all)
+int cuda_columns(Sim *sim, CudaColumn column[CUDA_COLUMNS], int *all)
 {
   State *s = &sim->s;
-  int n = 0, moved;
-#define STATE_COLUMN(TYPE, MEMBER, WIDTH, ...)                                                     \
-  c[n++] = {(void **)&s->MEMBER, WIDTH, (int)sizeof(TYPE), #MEMBER};
+  int n = 0, moved = 0;
+  for (int role = MOVED; role >= WORK; role--) {
+#define STATE_COLUMN(TYPE, MEMBER, WIDTH, OWN)                                                     \
+  if (role_of(sim, #MEMBER, OWN) == role)                                                          \
+    column[n++] = {(void **)&s->MEMBER, WIDTH, (int)sizeof(TYPE)};
+#define STATE_MOVED(TYPE, MEMBER, WIDTH, ...) STATE_COLUMN(TYPE, MEMBER, WIDTH, MOVED)
+#define STATE_WORK(TYPE, MEMBER, WIDTH, ...)  STATE_COLUMN(TYPE, MEMBER, WIDTH, WORK)
 #define STATE_SLOT(MEMBER, WIDTH)                                                                  \
-  c[n++] = {(void **)&s->saved[slot].MEMBER, WIDTH, (int)sizeof(double), #MEMBER};
-  ALL_FIELDS(STATE_COLUMN)
-  MOVED_FIELDS(STATE_COLUMN)
-  for (int slot = 0; slot < sim->slots; slot++) { SAVED_FIELDS(STATE_SLOT) }
-  moved = n;
-  WORK_FIELDS(STATE_COLUMN)
+  if (role == MOVED) column[n++] = {(void **)&s->saved[slot].MEMBER, WIDTH, (int)sizeof(double)};
+    ALL_FIELDS(STATE_MOVED)
+    MOVED_FIELDS(STATE_MOVED)
+    WORK_FIELDS(STATE_WORK)
+    for (int slot = 0; slot < sim->slots; slot++) { SAVED_FIELDS(STATE_SLOT) }
 #undef STATE_COLUMN
+#undef STATE_MOVED
+#undef STATE_WORK
 #undef STATE_SLOT
+    if (role == MOVED) moved = n;
+  }
   *all = n;
   return moved;
 }
 
-int cuda_columns(Sim *sim, CudaColumn column[CUDA_COLUMNS], int *all)
+/* Only gravity reads points. */
+static size_t points_of(const Sim *sim)
 {
-  int kept = 0, moved = 0, first, n;
-  first = columns_of(sim, column, &n);
-  for (int k = 0; k < n; k++) {
-    if (!*column[k].array) continue;
-    column[kept++] = column[k];
-    moved += k < first;
-  }
-  *all = kept;
-  return moved;
+  return sim->par.gravity == PARAM_NONE ? 0 : (size_t)sim->s.n;
 }
 
 size_t cuda_state_bytes(Sim *sim, const Parts *p)
 {
   CudaColumn column[CUDA_COLUMNS];
-  size_t n = (size_t)p->n, sum = 0;
+  size_t n = (size_t)sim->s.n, sum = 0;
   int all;
-  columns_of(sim, column, &all);
-  for (int k = 0; k < all; k++)
-    if (!idle(sim, column[k].name)) sum += rounded(n * (size_t)(column[k].width * column[k].size));
-  return sum + n * 2 * sizeof(float4) + flaws_of(sim, p) * sizeof(double);
+  cuda_columns(sim, column, &all);
+  for (int k = 0; k < all; k++) sum += rounded(n * (size_t)(column[k].width * column[k].size));
+  return sum + points_of(sim) * 2 * sizeof(float4) + flaws_of(sim, p) * sizeof(double);
 }
 
 static int alloc(Sim *sim, const Parts *p, Err *err)
@@ -93,12 +120,13 @@ static int alloc(Sim *sim, const Parts *p, Err *err)
   CudaColumn column[CUDA_COLUMNS];
   size_t n = (size_t)p->n;
   int all, bad = 0;
-  columns_of(sim, column, &all);
+  cuda_columns(sim, column, &all);
   for (int k = 0; k < all && !bad; k++)
-    if (!idle(sim, column[k].name))
-      bad = cuda_alloc(sim, column[k].array, n * (size_t)(column[k].width * column[k].size), err);
-  return bad || cuda_alloc(sim, (void **)&c->x.hi, n * sizeof(float4), err) ||
-         cuda_alloc(sim, (void **)&c->x.lo, n * sizeof(float4), err) ||
+    bad = cuda_alloc(sim, column[k].array, n * (size_t)(column[k].width * column[k].size), err);
+  n = points_of(sim);
+  return bad ||
+         (n && (cuda_alloc(sim, (void **)&c->x.hi, n * sizeof(float4), err) ||
+                cuda_alloc(sim, (void **)&c->x.lo, n * sizeof(float4), err))) ||
          cuda_alloc(sim, (void **)&c->flaw, flaws_of(sim, p) * sizeof(double), err) ||
          cuda_alloc(sim, (void **)&c->material, (size_t)sim->materials * sizeof(Material), err);
 }
@@ -114,7 +142,7 @@ static int fill_rows(Sim *sim, const Parts *p, Err *err)
     err_set(err, "not enough memory for %ld particles", p->n);
   else
     bad = cuda_copy(sim, s->row, row, (size_t)p->n * sizeof *row, err) ||
-          cuda_copy(sim, s->flaw0, start, (size_t)p->n * sizeof *start, err);
+          (s->flaw0 && cuda_copy(sim, s->flaw0, start, (size_t)p->n * sizeof *start, err));
   free(row), free(start);
   return bad;
 }
@@ -131,7 +159,8 @@ static int fill(Sim *sim, const Parts *p, Err *err)
   ALL_FIELDS(STATE_FILL)
 #undef STATE_FILL
   if (fill_rows(sim, p, err)) return -1;
-  if (p->nflaw && cuda_copy(sim, s->nflaw, p->nflaw, n * sizeof *p->nflaw, err)) return -1;
+  if (p->nflaw && s->nflaw && cuda_copy(sim, s->nflaw, p->nflaw, n * sizeof *p->nflaw, err))
+    return -1;
   if (cuda_copy(sim, c->flaw, p->flaw, flaws_of(sim, p) * sizeof *p->flaw, err)) return -1;
   s->flaw = c->flaw, s->material = c->material;
   return cuda_copy(sim, c->material, sim->material, (size_t)sim->materials * sizeof(Material), err);
@@ -175,7 +204,7 @@ void cuda_state_close(Sim *sim)
   Cuda *c = cuda_of(sim);
   CudaColumn column[CUDA_COLUMNS];
   int all;
-  columns_of(sim, column, &all);
+  cuda_columns(sim, column, &all);
   for (int k = 0; k < all; k++) cuda_free(*column[k].array);
   cuda_free(c->x.hi), cuda_free(c->x.lo);
   cuda_free(c->flaw), cuda_free(c->material);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The state on its way to the host. Kernels put the arrays into row order in a staging buffer on
  * the card; from there a second stream brings them over in pinned pieces while the run goes on.
- * When the buffer is too small for all, the run waits for all but the last of it. */
+ * Where memory is not ample the buffer takes 8 bytes a particle at a time, some rows of an array,
+ * and the run waits for all but the last of it. */
 #include "cuda.h"
 
 enum { PIECE = 1 << 24 }; /* bytes of pinned memory */
@@ -31,12 +32,14 @@ int cuda_copy(Sim *sim, void *to, const void *from, size_t bytes, Err *err)
   return launch_failed(error, err);
 }
 
-/* Element k of particle i to its place in the file. */
+/* Element k of particle i to its place among rows first .. first + rows - 1 of the file. */
 template <class T>
-static __global__ void store_rows(long n, int width, const int64_t *row, const T *from, T *to)
+static __global__ void store_rows(long n, int width, const int64_t *row, const T *from, long first,
+                                  long rows, T *to)
 {
-  long e = (long)blockIdx.x * blockDim.x + threadIdx.x, i = e / width;
-  if (i < n) to[row[i] * width + e % width] = from[e];
+  const long e = (long)blockIdx.x * blockDim.x + threadIdx.x, i = e / width;
+  const long at = i < n ? row[i] - first : -1;
+  if (at >= 0 && at < rows) to[at * width + e % width] = from[e];
 }
 
 int cuda_fetch(Sim *sim, Parts *parts, Err *err)
@@ -58,29 +61,45 @@ int cuda_fetch(Sim *sim, Parts *parts, Err *err)
   return launch_failed(error, err);
 }
 
-/* One array into the staging buffer, which is emptied before when it is full. */
+/* Rows of an array into the staging buffer: `rows` from `first` on. */
+static void stage_rows(Sim *sim, void *to, const void *from, int width, int size, long first,
+                       long rows)
+{
+  Cuda *c = cuda_of(sim);
+  struct CudaStore *st = c->store;
+  CudaError *error = &c->error;
+  const long n = sim->s.n;
+  const unsigned blocks = launch_blocks((size_t)n * (size_t)width, 256);
+  const size_t row = (size_t)width * (size_t)size, bytes = (size_t)rows * row;
+  char *place = st->stage + st->used;
+  if (size == 8)
+    LAUNCH(store_rows<uint64_t>, blocks, 256, 0, c->stream, n, width, sim->s.row,
+           (const uint64_t *)from, first, rows, (uint64_t *)place);
+  else
+    LAUNCH(store_rows<uint32_t>, blocks, 256, 0, c->stream, n, width, sim->s.row,
+           (const uint32_t *)from, first, rows, (uint32_t *)place);
+  st->staged[st->count++] = {(char *)to + (size_t)first * row, st->used, bytes};
+  st->used += (bytes + 255) / 256 * 256;
+}
+
+/* One array into the staging buffer, which is emptied whenever it is full. */
 static int stage(Sim *sim, Parts *p, void *to, const void *from, int width, int size, Err *err)
 {
   Cuda *c = cuda_of(sim);
   struct CudaStore *st = c->store;
   CudaError *error = &c->error;
-  long n = sim->s.n;
-  size_t elements = (size_t)n * (size_t)width, bytes = elements * (size_t)size;
-  char *place;
-  if (st->used + bytes > st->room) {
-    CHECK(cudaEventRecord(st->ready, c->stream));
-    if (cuda_fetch(sim, p, err)) return -1;
+  const size_t row = (size_t)width * (size_t)size;
+  for (long first = 0, rows; first < sim->s.n; first += rows) {
+    const long left = sim->s.n - first;
+    if (st->used + (size_t)left * row > st->room && st->used) {
+      CHECK(cudaEventRecord(st->ready, c->stream));
+      if (cuda_fetch(sim, p, err)) return -1;
+    }
+    const long fit = (long)((st->room - st->used) / row);
+    rows = left < fit ? left : fit;
+    stage_rows(sim, to, from, width, size, first, rows);
   }
-  place = st->stage + st->used;
-  if (size == 8)
-    LAUNCH(store_rows<uint64_t>, launch_blocks(elements, 256), 256, 0, c->stream, n, width,
-           sim->s.row, (const uint64_t *)from, (uint64_t *)place);
-  else
-    LAUNCH(store_rows<uint32_t>, launch_blocks(elements, 256), 256, 0, c->stream, n, width,
-           sim->s.row, (const uint32_t *)from, (uint32_t *)place);
-  st->staged[st->count++] = {to, st->used, bytes};
-  st->used += (bytes + 255) / 256 * 256;
-  return 0;
+  return launch_failed(error, err);
 }
 
 int cuda_store(Sim *sim, Parts *p, Err *err)
@@ -99,30 +118,24 @@ int cuda_store(Sim *sim, Parts *p, Err *err)
   return launch_failed(error, err);
 }
 
-/* The widest array. */
-size_t cuda_store_bytes(const Sim *sim)
+/* The staging buffer holds all that files have, or 8 bytes a particle. */
+size_t cuda_store_bytes(Sim *sim)
 {
-  size_t widest = 0;
-#define STORE_WIDEST(TYPE, MEMBER, WIDTH, ...)                                                     \
-  widest = widest > (WIDTH) * sizeof(TYPE) ? widest : (WIDTH) * sizeof(TYPE);
-  ALL_FIELDS(STORE_WIDEST)
-#undef STORE_WIDEST
-  return (size_t)sim->s.n * widest;
+  const size_t n = (size_t)sim->s.n;
+  size_t all = 0;
+#define STORE_SIZE(TYPE, MEMBER, WIDTH, ...) all += n * (WIDTH) * sizeof(TYPE) + 256;
+  ALL_FIELDS(STORE_SIZE)
+#undef STORE_SIZE
+  return cuda_of(sim)->ample ? all : n * 8 + 256;
 }
 
-/* The staging buffer holds all that files have, or when memory is short the widest array. */
 int cuda_store_open(Sim *sim, Err *err)
 {
   Cuda *c = cuda_of(sim);
   CudaError *error = &c->error;
-  size_t n = (size_t)sim->s.n, available = 0, total = 0, all = 0;
   if (!(c->store = (struct CudaStore *)calloc(1, sizeof *c->store)))
     return err_set(err, "not enough memory");
-#define STORE_SIZE(TYPE, MEMBER, WIDTH, ...) all += n * (WIDTH) * sizeof(TYPE) + 256;
-  ALL_FIELDS(STORE_SIZE)
-#undef STORE_SIZE
-  CHECK(cudaMemGetInfo(&available, &total));
-  c->store->room = all < available / 4 ? all : cuda_store_bytes(sim);
+  c->store->room = cuda_store_bytes(sim);
   CHECK(cudaStreamCreateWithFlags(&c->store->stream, cudaStreamNonBlocking));
   CHECK(cudaEventCreateWithFlags(&c->store->ready, cudaEventDisableTiming));
   CHECK(cudaMallocHost((void **)&c->store->piece, PIECE));

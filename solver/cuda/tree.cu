@@ -3,7 +3,8 @@
  * cell that holds it and TREE_BUCKET others, which are neighbours in the order; so each particle
  * knows by itself which nodes begin with it. Their numbers, counted by level and block and added
  * up, give every node its place. Moments go up from the leaves, above these by eight threads a
- * node: whoever finishes the last child does the parent, and adds the children in their order. */
+ * node: whoever finishes the last child does the parent, and adds the children in their order.
+ * Masses and what follows from them (poles) are for gravity: there only when it walks the tree. */
 #include <cub/cub.cuh>
 #include "tree.cuh"
 
@@ -162,14 +163,16 @@ static __device__ __forceinline__ void add_quadrupole(double q[6], double m, dou
 }
 
 /* Mass, centre and box of all from those of the threads; sum: of m x. */
-template <int LANES>
+template <int LANES, bool POLES>
 static __device__ __forceinline__ void join(const Build &a, Up *u, double sum[3])
 {
-  u->m = add<LANES>(u->m), u->h = most<LANES>(u->h), u->count = add<LANES>(u->count);
+  u->h = most<LANES>(u->h), u->count = add<LANES>(u->count);
+  if (POLES) u->m = add<LANES>(u->m);
 #pragma unroll
   for (int d = 0; d < 3; d++) {
-    sum[d] = add<LANES>(sum[d]);
     u->lo[d] = least<LANES>(u->lo[d]), u->hi[d] = most<LANES>(u->hi[d]);
+    if (!POLES) continue;
+    sum[d] = add<LANES>(sum[d]);
     u->com[d] = u->m > 0 ? sum[d] / u->m
                          : a.root->origin[d] + 0.5 * ((double)u->lo[d] + u->hi[d]) * a.length;
   }
@@ -225,7 +228,7 @@ static __device__ __forceinline__ void start(Up *u)
 }
 
 /* Particles first .. end-1, none: the thread's node is no leaf. */
-template <int LANES>
+template <int LANES, bool POLES>
 static __device__ __forceinline__ void sum_leaf(const Build &a, long first, long end, int rank,
                                                 Up *u)
 {
@@ -234,7 +237,7 @@ static __device__ __forceinline__ void sum_leaf(const Build &a, long first, long
   double sum[3] = {0, 0, 0};
   start(u);
   for (long i = first + rank; i < end; i += LANES) {
-    const double *x = a.s.x + 3 * i, m = a.s.m[i];
+    const double *x = a.s.x + 3 * i, m = POLES ? a.s.m[i] : 0;
     float e[3];
     drift_of(a, i, e);
     u->m += m, u->h = fmaxf(u->h, __double2float_ru(a.s.h[i] * il)), u->count++;
@@ -246,46 +249,55 @@ static __device__ __forceinline__ void sum_leaf(const Build &a, long first, long
       u->hi[d] = fmaxf(u->hi[d], __double2float_ru(v));
     }
   }
-  join<LANES>(a, u, sum);
+  join<LANES, POLES>(a, u, sum);
 #pragma unroll
   for (int d = 0; d < 3; d++) u->drift[d] = add<LANES>(u->drift[d]) / (float)max(u->count, 1);
   for (long i = first + rank; i < end; i += LANES) {
     const double *x = a.s.x + 3 * i;
-    add_quadrupole(u->q, a.s.m[i], x[0] - u->com[0], x[1] - u->com[1], x[2] - u->com[2]);
+    if (POLES) add_quadrupole(u->q, a.s.m[i], x[0] - u->com[0], x[1] - u->com[1], x[2] - u->com[2]);
     u->reach = fmaxf(u->reach, keep_place(a, i, u->drift, cells));
   }
 #pragma unroll
-  for (int k = 0; k < 6; k++) u->q[k] = add<LANES>(u->q[k]);
+  for (int k = 0; k < 6 && POLES; k++) u->q[k] = add<LANES>(u->q[k]);
   u->reach = most<LANES>(u->reach);
 }
 
+/* Mass, centre and second moments of a child. */
+static __device__ __forceinline__ void read_moments(const Build &a, int child, double c[4], Up *u)
+{
+  const double2 *m = (const double2 *)(a.t.moment + 10 * (size_t)child);
+  double2 v[5];
+#pragma unroll
+  for (int k = 0; k < 5; k++) v[k] = __ldcg(m + k);
+  c[0] = v[0].x, c[1] = v[0].y, c[2] = v[1].x, c[3] = v[1].y;
+#pragma unroll
+  for (int k = 0; k < 6; k++) u->q[k] = k % 2 ? v[2 + k / 2].y : v[2 + k / 2].x;
+}
+
 /* From child `child` of each thread, -1: none. Others have written it: past the first cache. */
+template <bool POLES>
 static __device__ __forceinline__ void sum_children(const Build &a, int child, int children, Up *u)
 {
   double c[4] = {0, 0, 0, 0}, sum[3];
   float4 drift = make_float4(0, 0, 0, 0);
   start(u);
   if (child >= 0) {
-    const double2 *m = (const double2 *)(a.t.moment + 10 * (size_t)child);
     const float4 lo = __ldcg(a.t.lo + child), hi = __ldcg(a.t.hi + child);
-    double2 v[5];
-#pragma unroll
-    for (int k = 0; k < 5; k++) v[k] = __ldcg(m + k);
     drift = __ldcg(a.b.drift + child);
     u->lo[0] = lo.x, u->lo[1] = lo.y, u->lo[2] = lo.z;
     u->hi[0] = hi.x, u->hi[1] = hi.y, u->hi[2] = hi.z, u->h = hi.w;
     u->count = __ldcg(&a.t.link[child].w);
-    c[0] = v[0].x, c[1] = v[0].y, c[2] = v[1].x, c[3] = v[1].y;
-#pragma unroll
-    for (int k = 0; k < 6; k++) u->q[k] = k % 2 ? v[2 + k / 2].y : v[2 + k / 2].x;
+    if (POLES) read_moments(a, child, c, u);
   }
   u->m = c[0];
 #pragma unroll
   for (int d = 0; d < 3; d++) sum[d] = c[0] * c[1 + d];
-  join<FAMILY>(a, u, sum);
-  add_quadrupole(u->q, c[0], c[1] - u->com[0], c[2] - u->com[1], c[3] - u->com[2]);
+  join<FAMILY, POLES>(a, u, sum);
+  if (POLES) {
+    add_quadrupole(u->q, c[0], c[1] - u->com[0], c[2] - u->com[1], c[3] - u->com[2]);
 #pragma unroll
-  for (int k = 0; k < 6; k++) u->q[k] = add<FAMILY>(u->q[k]);
+    for (int k = 0; k < 6; k++) u->q[k] = add<FAMILY>(u->q[k]);
+  }
   const float share = 1 / (float)max(children, 1);
   u->drift[0] = add<FAMILY>(drift.x) * share, u->drift[1] = add<FAMILY>(drift.y) * share;
   u->drift[2] = add<FAMILY>(drift.z) * share;
@@ -297,6 +309,7 @@ static __device__ __forceinline__ void sum_children(const Build &a, int child, i
 
 static __device__ void keep_pole(const Build &a, int node, const Up &u)
 {
+  double2 *m = (double2 *)(a.t.moment + 10 * (size_t)node);
   const double iq = a.im * a.il * a.il;
   float hi[3], lo[3], q[6];
 #pragma unroll
@@ -310,23 +323,23 @@ static __device__ void keep_pole(const Build &a, int node, const Up &u)
   to[0] = a.t.com[node] = make_float4(hi[0], hi[1], hi[2], __double2float_rn(u.m * a.im));
   to[1] = make_float4(lo[0], lo[1], lo[2], 0);
   to[2] = make_float4(q[0], q[1], q[2], q[3]), to[3] = make_float4(q[4], q[5], 0, 0);
+  m[0] = make_double2(u.m, u.com[0]), m[1] = make_double2(u.com[1], u.com[2]);
+  m[2] = make_double2(u.q[0], u.q[1]), m[3] = make_double2(u.q[2], u.q[3]);
+  m[4] = make_double2(u.q[4], u.q[5]);
 }
 
-static __device__ void keep(const Build &a, int node, int first, const Up &u)
+template <bool POLES> static __device__ void keep(const Build &a, int node, int first, const Up &u)
 {
-  double2 *m = (double2 *)(a.t.moment + 10 * (size_t)node);
   const int level = tree_common(a.key[first], a.key[first + u.count - 1]);
   const double size = a.root->edge / (double)(1 << level) * a.il;
   a.t.lo[node] = make_float4(u.lo[0], u.lo[1], u.lo[2], __double2float_ru(size));
   a.t.hi[node] = make_float4(u.hi[0], u.hi[1], u.hi[2], u.h);
   a.b.drift[node] = make_float4(u.drift[0], u.drift[1], u.drift[2], u.reach);
-  m[0] = make_double2(u.m, u.com[0]), m[1] = make_double2(u.com[1], u.com[2]);
-  m[2] = make_double2(u.q[0], u.q[1]), m[3] = make_double2(u.q[2], u.q[3]);
-  m[4] = make_double2(u.q[4], u.q[5]);
-  keep_pole(a, node, u);
+  if (POLES) keep_pole(a, node, u);
 }
 
 /* Leaves: HANDS threads each, as most hold three or four particles. */
+template <bool POLES>
 static __global__ void __launch_bounds__(THREADS, 3) sum_leaves(const __grid_constant__ Build a)
 {
   const int nodes = a.t.level[ROWS], stride = (int)gridDim.x * THREADS / HANDS;
@@ -337,13 +350,14 @@ static __global__ void __launch_bounds__(THREADS, 3) sum_leaves(const __grid_con
     const int node = b + lane / HANDS;
     const int4 link = node < nodes ? a.t.link[node] : make_int4(0, -1, 0, 0);
     Up u;
-    sum_leaf<HANDS>(a, link.z, link.y == 0 ? (long)link.z + link.w : 0, rank, &u);
-    if (link.y == 0 && rank == 0) keep(a, node, link.z, u);
+    sum_leaf<HANDS, POLES>(a, link.z, link.y == 0 ? (long)link.z + link.w : 0, rank, &u);
+    if (link.y == 0 && rank == 0) keep<POLES>(a, node, link.z, u);
   }
 }
 
 /* From the nodes `node` of a warp's four families as far up as they are the last to come; a node
  * that has inner children waits for these. */
+template <bool POLES>
 static __device__ __forceinline__ void climb(const Build &a, int nodes, int node)
 {
   const int lane = threadIdx.x % 32, rank = lane % FAMILY, head = lane - rank;
@@ -360,12 +374,12 @@ static __device__ __forceinline__ void climb(const Build &a, int nodes, int node
     on = on && came == inners - 1, bottom = false;
     __threadfence();
     Up u;
-    sum_children(a, on && kin ? child : -1, kids, &u);
+    sum_children<POLES>(a, on && kin ? child : -1, kids, &u);
     if (on && rank == 0) {
       int4 link = a.t.link[node];
       link.y = kids, link.w = u.count;
       a.t.link[node] = link;
-      keep(a, node, link.z, u);
+      keep<POLES>(a, node, link.z, u);
     }
     __threadfence();
     __syncwarp();
@@ -374,6 +388,7 @@ static __device__ __forceinline__ void climb(const Build &a, int nodes, int node
 }
 
 /* All others, from those with leaves only; a warp looks for these among 32 nodes at a time. */
+template <bool POLES>
 static __global__ void __launch_bounds__(THREADS, 3) sum_up(const __grid_constant__ Build a)
 {
   const int nodes = a.t.level[ROWS], stride = (int)gridDim.x * THREADS;
@@ -385,19 +400,22 @@ static __global__ void __launch_bounds__(THREADS, 3) sum_up(const __grid_constan
       int node = -1;
       for (; inner && took < 32 / FAMILY; inner &= inner - 1, took++)
         if (took == lane / FAMILY) node = b + __ffs((int)inner) - 1;
-      climb(a, nodes, node);
+      climb<POLES>(a, nodes, node);
     }
   }
 }
 
 static int blocks_of(long n) { return (int)launch_blocks((size_t)n, THREADS); }
 
+/* Whether gravity needs the tree. */
+static int walked(const Sim *sim) { return sim->par.gravity == PARAM_TREE; }
+
 int cuda_tree(Sim *sim, Err *err)
 {
   Cuda *c = cuda_of(sim);
   CudaError *error = &c->error;
   struct CudaTree *b = c->build;
-  const int blocks = blocks_of(sim->s.n), most = 8 * 132;
+  const int blocks = blocks_of(sim->s.n), few = min(blocks, 8 * 132), poles = walked(sim);
   Build a = {sim->s,
              c->unit.length,
              1 / c->unit.length,
@@ -413,67 +431,86 @@ int cuda_tree(Sim *sim, Err *err)
     CHECK(cub::DeviceScan::ExclusiveSum(b->scan, b->scan_bytes, b->count, b->base,
                                         ROWS * blocks + 1, c->stream));
   LAUNCH(make_nodes, blocks, THREADS, 0, c->stream, a);
-  LAUNCH(sum_leaves, blocks < most ? blocks : most, THREADS, 0, c->stream, a);
-  LAUNCH(sum_up, blocks < most ? blocks : most, THREADS, 0, c->stream, a);
+  LAUNCH(poles ? sum_leaves<true> : sum_leaves<false>, few, THREADS, 0, c->stream, a);
+  LAUNCH(poles ? sum_up<true> : sum_up<false>, few, THREADS, 0, c->stream, a);
   return launch_failed(error, err);
 }
 
-enum { NODE_BYTES = 16 + 3 * 16 + sizeof(Pole) + 80 + 2 * 4 + 16 };
+/* An array by nodes: where its pointer is, bytes a node. */
+typedef struct {
+  void **at;
+  size_t bytes;
+} NodeArray;
+enum { NODE_ARRAYS = 9 };
 
-static long first_room(long n) { return n / 4 + 1024; }
-
-static void free_nodes(Cuda *c)
+static int node_arrays(const Sim *sim, Cuda *c, NodeArray out[NODE_ARRAYS])
 {
   DeviceTree *t = &c->tree;
-  cuda_free(t->link), cuda_free(t->lo), cuda_free(t->hi), cuda_free(t->com), cuda_free(t->pole);
-  cuda_free(t->moment), cuda_free(c->build->parent), cuda_free(c->build->arrived);
-  cuda_free(c->build->drift);
-  t->link = NULL, t->lo = t->hi = t->com = NULL, t->pole = NULL, t->moment = NULL, t->room = 0;
-  c->build->parent = c->build->arrived = NULL, c->build->drift = NULL;
+  struct CudaTree *b = c->build;
+  const NodeArray all[NODE_ARRAYS] = {{(void **)&t->link, sizeof *t->link},
+                                      {(void **)&t->lo, sizeof *t->lo},
+                                      {(void **)&t->hi, sizeof *t->hi},
+                                      {(void **)&b->parent, sizeof *b->parent},
+                                      {(void **)&b->arrived, sizeof *b->arrived},
+                                      {(void **)&b->drift, sizeof *b->drift},
+                                      {(void **)&t->com, sizeof *t->com},
+                                      {(void **)&t->pole, sizeof *t->pole},
+                                      {(void **)&t->moment, 10 * sizeof *t->moment}};
+  memcpy(out, all, sizeof all);
+  return walked(sim) ? NODE_ARRAYS : NODE_ARRAYS - 3;
 }
 
 int cuda_tree_grow(Sim *sim, long nodes, Err *err)
 {
   Cuda *c = cuda_of(sim);
-  DeviceTree *t = &c->tree;
-  const size_t r = (size_t)nodes;
-  free_nodes(c);
-  if (cuda_alloc(sim, (void **)&t->link, r * 16, err) ||
-      cuda_alloc(sim, (void **)&t->lo, r * 16, err) ||
-      cuda_alloc(sim, (void **)&t->hi, r * 16, err) ||
-      cuda_alloc(sim, (void **)&t->com, r * 16, err) ||
-      cuda_alloc(sim, (void **)&t->pole, r * sizeof(Pole), err) ||
-      cuda_alloc(sim, (void **)&t->moment, r * 80, err) ||
-      cuda_alloc(sim, (void **)&c->build->parent, r * 4, err) ||
-      cuda_alloc(sim, (void **)&c->build->arrived, r * 4, err) ||
-      cuda_alloc(sim, (void **)&c->build->drift, r * 16, err))
-    return -1;
-  t->room = nodes;
+  NodeArray a[NODE_ARRAYS];
+  const int arrays = node_arrays(sim, c, a);
+  for (int k = 0; k < arrays; k++) cuda_give(sim, a[k].at, (size_t)c->tree.room * a[k].bytes);
+  c->tree.room = 0;
+  for (int k = 0; k < arrays; k++)
+    if (cuda_alloc(sim, a[k].at, (size_t)nodes * a[k].bytes, err)) return -1;
+  c->tree.room = nodes;
   return 0;
 }
 
-size_t cuda_tree_bytes(const Sim *sim)
+/* Uniform density: 0.3 n, at times 0.5. */
+static long first_room(long n) { return 3 * n / 8 + 1024; }
+static size_t counts_of(long n) { return (size_t)blocks_of(n) * ROWS + 1; }
+
+static size_t scan_bytes(Sim *sim)
 {
-  const size_t n = (size_t)sim->s.n;
-  return (size_t)first_room(sim->s.n) * NODE_BYTES + n * (16 + 2) +
-         (size_t)blocks_of(sim->s.n) * ROWS * 8 + (1 << 20);
+  CudaError *error = &cuda_of(sim)->error;
+  size_t bytes = 0;
+  CHECK(cub::DeviceScan::ExclusiveSum(NULL, bytes, (int *)NULL, (int *)NULL,
+                                      (int)counts_of(sim->s.n), cuda_of(sim)->stream));
+  return bytes;
+}
+
+size_t cuda_tree_bytes(Sim *sim)
+{
+  struct CudaTree none;
+  Cuda nothing;
+  NodeArray a[NODE_ARRAYS];
+  size_t node = 0;
+  nothing.build = &none;
+  for (int k = node_arrays(sim, &nothing, a); k-- > 0;) node += a[k].bytes;
+  return (size_t)first_room(sim->s.n) * node +
+         (size_t)sim->s.n * (sizeof *none.place + sizeof *nothing.tree.span) +
+         counts_of(sim->s.n) * 2 * sizeof *none.count + scan_bytes(sim);
 }
 
 int cuda_tree_open(Sim *sim, Err *err)
 {
   Cuda *c = cuda_of(sim);
-  CudaError *error = &c->error;
-  const size_t n = (size_t)sim->s.n, counts = (size_t)blocks_of(sim->s.n) * ROWS + 1;
+  const size_t n = (size_t)sim->s.n, counts = counts_of(sim->s.n);
   struct CudaTree *b = (struct CudaTree *)calloc(1, sizeof *b);
   if (!b) return err_set(err, "not enough memory");
-  c->build = b;
-  if (CHECK(cub::DeviceScan::ExclusiveSum(NULL, b->scan_bytes, b->count, b->base, (int)counts,
-                                          c->stream)))
-    return launch_failed(error, err);
-  if (cuda_alloc(sim, (void **)&b->place, n * 16, err) ||
-      cuda_alloc(sim, (void **)&c->tree.span, n * 2, err) ||
-      cuda_alloc(sim, (void **)&b->count, counts * 4, err) ||
-      cuda_alloc(sim, (void **)&b->base, counts * 4, err) ||
+  c->build = b, b->scan_bytes = scan_bytes(sim);
+  if (launch_failed(&c->error, err) ||
+      cuda_alloc(sim, (void **)&b->place, n * sizeof *b->place, err) ||
+      cuda_alloc(sim, (void **)&c->tree.span, n * sizeof *c->tree.span, err) ||
+      cuda_alloc(sim, (void **)&b->count, counts * sizeof *b->count, err) ||
+      cuda_alloc(sim, (void **)&b->base, counts * sizeof *b->base, err) ||
       cuda_alloc(sim, &b->scan, b->scan_bytes, err) ||
       cuda_alloc(sim, (void **)&c->tree.level, (ROWS + 1) * sizeof(int), err))
     return -1;
@@ -484,8 +521,10 @@ void cuda_tree_close(Sim *sim)
 {
   Cuda *c = cuda_of(sim);
   struct CudaTree *b = c->build;
+  NodeArray a[NODE_ARRAYS];
   if (!b) return;
-  free_nodes(c);
+  for (int k = node_arrays(sim, c, a); k-- > 0;) cuda_free(*a[k].at), *a[k].at = NULL;
+  c->tree.room = 0;
   cuda_free(c->tree.level), c->tree.level = NULL;
   cuda_free(b->place), cuda_free(c->tree.span), cuda_free(b->count), cuda_free(b->base);
   cuda_free(b->scan);

@@ -19,9 +19,7 @@ typedef struct {
   unsigned long long rows; /* taken in the lists: 32 entries each */
 } Report;
 
-enum { ORDER_SPARES = 64 };
-
-/* spare: memory that a column's next order is written to; then the two are exchanged. */
+/* Memory that a column's next order is written to; then the two are exchanged. */
 typedef struct {
   void *at;
   int bytes; /* a particle */
@@ -36,7 +34,7 @@ struct CudaOrder {
   struct Extent *part;
   unsigned *ticket;
   Report *report, *host; /* on the device, in pinned memory */
-  Spare spare[ORDER_SPARES];
+  Spare spare[CUDA_COLUMNS];
   int spares;
 };
 
