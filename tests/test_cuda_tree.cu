@@ -268,6 +268,31 @@ static void without_mass(void **state)
   cloud_free(&cloud), tree_lab_close(l);
 }
 
+/* Between evaluations of gravity: the same boxes; masses stay as they were. */
+static void without_gravity(void **state)
+{
+  (void)state;
+  Cloud cloud;
+  TreeLab *l = open_shape(TWO_BODIES, 700, 26, 1, &cloud);
+  tree_lab_search(l);
+  Copy c = copy_tree(l);
+  const DeviceTree &t = c.d->tree;
+  const size_t nodes = (size_t)t.nodes;
+  const std::vector<double> none(10 * nodes, -1.);
+  const std::vector<float4> drift = tree_lab_get(l, c.d->build->drift, nodes);
+  tree_lab_put(l, t.moment, none.data(), 10 * nodes);
+  l->sim.pull_due = 0;
+  tree_lab_search(l);
+  const Copy again = copy_tree(l);
+  assert_true(again.moment == none);
+  assert_memory_equal(again.link.data(), c.link.data(), nodes * sizeof(int4));
+  assert_memory_equal(again.lo.data(), c.lo.data(), nodes * sizeof(float4));
+  assert_memory_equal(again.hi.data(), c.hi.data(), nodes * sizeof(float4));
+  assert_memory_equal(tree_lab_get(l, c.d->build->drift, nodes).data(), drift.data(),
+                      nodes * sizeof(float4));
+  cloud_free(&cloud), tree_lab_close(l);
+}
+
 /* A value that cannot be, anywhere in x, y or h: the search fails and names the particle; once that
  * is mended it works again. */
 static void bad_particles_are_named(void **state)
@@ -306,7 +331,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(order_is_the_host_s), cmocka_unit_test(tree_is_the_host_s),
-      cmocka_unit_test(depth_and_growth), cmocka_unit_test(without_mass),
-      cmocka_unit_test(bad_particles_are_named)};
+      cmocka_unit_test(depth_and_growth),    cmocka_unit_test(without_mass),
+      cmocka_unit_test(without_gravity),     cmocka_unit_test(bad_particles_are_named)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

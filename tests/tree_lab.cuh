@@ -67,7 +67,7 @@ static inline TreeLab *tree_lab_open(const Cloud *c, const long *row)
   p->dimension = 3;
   l->n = c->n, l->parts = p;
   param_defaults(&sim->par);
-  sim->materials = p->materials, sim->slots = 1, sim->own = &l->cuda;
+  sim->materials = p->materials, sim->slots = 1, sim->own = &l->cuda, sim->pull_due = 1;
   sim->s.n = c->n, sim->s.dimension = 3;
   CHECK(cudaStreamCreateWithFlags(&l->cuda.stream, cudaStreamNonBlocking));
   if (launch_failed(error, &err) || !(sim->material = material_load(p, &err)) ||

@@ -49,8 +49,8 @@ typedef struct {
   int4 *link;  /* [nodes] x: first child, y: children (0: leaf), z: first particle, w: particles */
   float4 *lo;  /* [nodes] box; w: size, the longest edge of the smallest cell */
   float4 *hi;  /* [nodes] box; w: h_max */
-  float4 *com; /* [nodes] centre of mass, rounded; w: mass; this and the next two: if gravity
-                  walks the tree */
+  float4 *com; /* [nodes] centre of mass, rounded; w: mass; this and the next two: if gravity is due
+                  and walks the tree */
   Pole *pole;  /* [nodes] */
   double *moment; /* [nodes][10] SI, for the upward pass */
   char2 *span;    /* [n] levels: x: common with the particle before, y: of its leaf */
@@ -138,11 +138,11 @@ void cuda_clock_close(Sim *sim);
  * and the reductions waits for the device. */
 size_t cuda_order_bytes(Sim *sim);
 int cuda_order_open(Sim *sim, Err *err);
-int cuda_order(Sim *sim, Err *err); /* root, keys, sort, permutation; then points x */
+int cuda_order(Sim *sim, Err *err); /* root, keys, sort, permutation; points if gravity is due */
 void cuda_order_close(Sim *sim);
 size_t cuda_tree_bytes(Sim *sim);
 int cuda_tree_open(Sim *sim, Err *err);
-int cuda_tree(Sim *sim, Err *err); /* nodes, boxes, poles */
+int cuda_tree(Sim *sim, Err *err); /* nodes, boxes; poles if gravity is due */
 void cuda_tree_close(Sim *sim);
 size_t cuda_lists_bytes(const Sim *sim, const Parts *parts);
 int cuda_lists_open(Sim *sim, Err *err);

@@ -284,7 +284,7 @@ static int permute_some(Sim *sim, CudaColumn *column, int columns, const CudaCol
     *column[k].array = *spare, *spare = old;
   }
   p.x = sim->s.x, p.h = sim->s.h, p.m = sim->s.m;
-  if (!left) p.to = c->x;
+  if (!left && sim->pull_due) p.to = c->x;
   LAUNCH(permute, launch_blocks((size_t)sim->s.n, THREADS), THREADS, 0, c->stream, m, p,
          c->order->from[0], sim->s.n);
   return left;

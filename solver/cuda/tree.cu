@@ -415,7 +415,8 @@ int cuda_tree(Sim *sim, Err *err)
   Cuda *c = cuda_of(sim);
   CudaError *error = &c->error;
   struct CudaTree *b = c->build;
-  const int blocks = blocks_of(sim->s.n), few = min(blocks, 8 * 132), poles = walked(sim);
+  const int blocks = blocks_of(sim->s.n), few = min(blocks, 8 * 132),
+            poles = walked(sim) && sim->pull_due;
   Build a = {sim->s,
              c->unit.length,
              1 / c->unit.length,
