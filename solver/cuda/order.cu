@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The order of the particles: root cube, keys, sort, and everything into the new order. The sort
- * looks at as many digits of the keys as the last tree had levels, and at two
- * more; particles that agree in these are put in order of key and id afterwards,
+ * looks at as many digits of the keys as the last tree had levels, at one more, and at what its
+ * last pass takes besides; particles that agree in these are put in order of key and id afterwards,
  * so the order depends on nothing else. Columns are written to spare memory and exchanged with it.
  * Arrays whose content nobody needs any more are spare; there are others for what these cannot take
  * in one turn or, where memory is not ample, in two. */
@@ -11,7 +11,7 @@ extern "C" {
 #include "../../lib/rng.h"
 }
 
-enum { THREADS = 256, SPAN = 192, SPANS = 512, MOVES = 64 };
+enum { THREADS = 256, SPAN = 192, SPANS = 512, MOVES = 64, SORT_BITS = 8 /* a pass */ };
 static __device__ const double FAR = 1e150; /* squares of coordinates must stay finite */
 
 /* A box and the first bad coordinate of each direction, 3 i + d. */
@@ -295,7 +295,8 @@ static void sort_keys(Cuda *c, long n, const int64_t *id)
 {
   CudaError *error = &c->error;
   struct CudaOrder *o = c->order;
-  const int dropped = 3 * (HILBERT_LEVELS - o->levels);
+  const int bits = (3 * (o->levels + 1) + SORT_BITS - 1) / SORT_BITS * SORT_BITS,
+            dropped = 3 * HILBERT_LEVELS - min(bits, 3 * (int)HILBERT_LEVELS);
   cub::DoubleBuffer<uint64_t> key(o->key[0], o->key[1]);
   cub::DoubleBuffer<uint32_t> from(o->from[0], o->from[1]);
   if (!error->code)

@@ -501,7 +501,7 @@ int cuda_lists(Sim *sim, Err *err)
     }
   }
   c->tree.nodes = r->nodes, c->tree.levels = r->deepest + 1;
-  o->levels = min(r->deepest + 2, (int)HILBERT_LEVELS);
+  o->levels = r->deepest;
   return 0;
 }
 

@@ -28,7 +28,7 @@ typedef struct {
 struct CudaOrder {
   uint64_t *key[2]; /* [n] key[0]: sorted */
   uint32_t *from[2];
-  int levels; /* digits of the key that the next sort looks at */
+  int levels; /* of the last tree; CUDA_LEVELS: there was none */
   void *sort;
   size_t sort_bytes;
   struct Extent *part;
