@@ -30,7 +30,9 @@ static Parts *ball(long n)
 {
   LatticeBall b;
   WeibullGroup *group;
+  WeibullOptions flaws = {};
   int groups;
+  flaws.seed = 3, flaws.minimum = 1;
   need(lattice_ball(&b, LATTICE_HCP, 3, n, &err));
   Parts *p = part_new(b.n);
   need(part_add(p, "id x v m rho u h mat body", &err) || part_add_material(p, "rock", rock, &err));
@@ -42,7 +44,7 @@ static Parts *ball(long n)
     p->h[i] = cbrt(57 * 3 / (4 * 3.14159265358979) * b.volume);
   }
   Material *material = material_load(p, &err);
-  need(!material || weibull_assign(p, material, 3, NAN, NAN, &group, &groups, &err));
+  need(!material || weibull_assign(p, material, &flaws, &group, &groups, &err));
   free(group), free(material), lattice_free(&b);
   return p;
 }
