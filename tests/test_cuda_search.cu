@@ -138,10 +138,33 @@ static void hard_cases(void **state)
     TreeLab *l = tree_lab_open(&c, NULL);
     const Found f = search(l);
     check_lists(f, 0);
-    if (k == 2) assert_true(f.count[0] == 1499);
+    const int scattered = cuda_of(&l->sim)->order->host->scattered;
+    if (k == 1) assert_true(scattered > order_first(c.n)); /* more than may go first */
+    if (k == 2) assert_true(scattered == 0 && f.count[0] == 1499);
     if (k == 3) assert_true(f.count[0] == 749);
     cloud_free(&c), tree_lab_close(l);
   }
+}
+
+/* Few groups of debris among many that are not: these go first, and all are there. */
+static void debris_first(void **state)
+{
+  (void)state;
+  Cloud c = still(SPHERE, 1500, 12, 1);
+  for (long i = 0; i < 60; i++)
+    for (int d = 0; d < 3; d++) c.x[3 * i + d] *= 1000 * cloud_random(13, i, d);
+  memcpy(c.y, c.x, 24 * (size_t)c.n);
+  TreeLab *l = tree_lab_open(&c, NULL);
+  check_lists(search(l), 0);
+  const struct CudaOrder *o = cuda_of(&l->sim)->order;
+  const size_t groups = (size_t)(c.n + 31) / 32;
+  const int scattered = o->host->scattered;
+  assert_true(scattered > 0 && scattered <= order_first(c.n));
+  std::vector<char> is = tree_lab_get(l, o->is_first, groups);
+  for (int group : tree_lab_get(l, o->first, (size_t)scattered))
+    assert_int_equal(is[(size_t)group]--, 1);
+  for (char left : is) assert_int_equal(left, 0);
+  cloud_free(&c), tree_lab_close(l);
 }
 
 /* ha larger than h, and the other way round. */
@@ -186,6 +209,7 @@ int main(void)
                                      cmocka_unit_test(at_x_and_y),
                                      cmocka_unit_test(bodies_that_pass),
                                      cmocka_unit_test(hard_cases),
+                                     cmocka_unit_test(debris_first),
                                      cmocka_unit_test(two_supports),
                                      cmocka_unit_test(lattice_shells)};
   return cmocka_run_group_tests(tests, NULL, NULL);

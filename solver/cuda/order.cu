@@ -4,14 +4,22 @@
  * last pass takes besides; particles that agree in these are put in order of key and id afterwards,
  * so the order depends on nothing else. Columns are written to spare memory and exchanged with it.
  * Arrays whose content nobody needs any more are spare; there are others for what these cannot take
- * in one turn or, where memory is not ample, in two. */
+ * in one turn or, where memory is not ample, in two. What is known of the new order is noted:
+ * points, and groups that the search should take first. */
 #include <cub/cub.cuh>
 #include "tree.cuh"
 extern "C" {
 #include "../../lib/rng.h"
 }
 
-enum { THREADS = 256, SPAN = 192, SPANS = 512, MOVES = 64, SORT_BITS = 8 /* a pass */ };
+enum {
+  THREADS = 256,
+  SPAN = 192,
+  SPANS = 512,
+  MOVES = 64,
+  SORT_BITS = 8 /* a pass */,
+  SCATTERED = 6 /* jumps */
+};
 static __device__ const double FAR = 1e150; /* squares of coordinates must stay finite */
 
 /* A box and the first bad coordinate of each direction, 3 i + d. */
@@ -60,7 +68,7 @@ static __device__ void make_root(const Extent *part, const double *x, const int6
   bad = min(all.bad[0], min(all.bad[1], all.bad[2]));
   report->id = bad < INT64_MAX ? id[bad / 3] : INT64_MAX;
   report->value = bad < INT64_MAX ? x[bad] : 0;
-  report->loose = INT64_MAX, report->rows = 0;
+  report->loose = INT64_MAX, report->rows = 0, report->scattered = 0;
 }
 
 /* words: 3 n coordinates; as SPAN is a multiple of 3, a thread sees those of one direction. */
@@ -181,16 +189,20 @@ static __device__ void gather_words(const Moves &m, int c, const uint32_t *at, l
         ((const uint32_t *)m.move[c].from)[(size_t)at[k / words] * words + k % words];
 }
 
-/* Where points go, and what they are made of, which has been moved. */
+/* What is looked at once all has been moved, and what comes of it. */
 typedef struct {
-  const double *x, *h, *m;
+  const double *x, *h, *m; /* x NULL: there is more to move */
   const Root *root;
   Units unit;
   Points to; /* hi NULL: nobody needs them */
-} PointsOf;
+  Report *report;
+  int *first;
+  char *is_first;
+  int most;
+} Moved;
 
 /* The point of particle i: hi + lo in code units from the root's origin. */
-static __device__ __forceinline__ void make_point(const PointsOf &p, long i)
+static __device__ __forceinline__ void make_point(const Moved &p, long i)
 {
   const double il = 1 / p.unit.length;
   float hi[3], lo[3];
@@ -203,9 +215,29 @@ static __device__ __forceinline__ void make_point(const PointsOf &p, long i)
   p.to.lo[i] = make_float4(lo[0], lo[1], lo[2], __double2float_rn(p.m[i] / p.unit.mass));
 }
 
+/* Puts groups whose particles lie in many places, as debris does, on the list of those to be
+ * searched first. */
+static __device__ __forceinline__ void find_scattered(const Moved &p, long i, bool on)
+{
+  const int lane = (int)threadIdx.x % 32;
+  const double h = on ? p.h[i] : 0, reach = h + __shfl_up_sync(~0u, h, 1);
+  double r2 = 0;
+#pragma unroll
+  for (int d = 0; d < 3; d++) {
+    const double x = on ? p.x[3 * i + d] : 0, r = x - __shfl_up_sync(~0u, x, 1);
+    r2 += r * r;
+  }
+  const unsigned jumps = __ballot_sync(~0u, on && lane > 0 && r2 > reach * reach);
+  if (lane > 0 || !on) return;
+  const long group = i / CUDA_GROUP;
+  const int at = __popc(jumps) < SCATTERED ? p.most : atomicAdd(&p.report->scattered, 1);
+  p.is_first[group] = at < p.most;
+  if (at < p.most) p.first[at] = (int)group;
+}
+
 static __global__ void __launch_bounds__(THREADS)
-    permute(const __grid_constant__ Moves m, const __grid_constant__ PointsOf p,
-            const uint32_t *from, long n)
+    permute(const __grid_constant__ Moves m, const __grid_constant__ Moved p, const uint32_t *from,
+            long n)
 {
   __shared__ uint32_t at[THREADS];
   const long base = (long)blockIdx.x * THREADS;
@@ -225,9 +257,10 @@ static __global__ void __launch_bounds__(THREADS)
     else
       gather_words(m, c, at, base, count);
   }
-  if (!p.to.hi) return;
+  if (!p.x) return;
   __syncthreads();
-  if (t < count) make_point(p, base + t);
+  find_scattered(p, base + t, t < count);
+  if (p.to.hi && t < count) make_point(p, base + t);
 }
 
 static int bytes_of(const CudaColumn *c) { return c->width * c->size; }
@@ -267,13 +300,15 @@ static int permute_some(Sim *sim, CudaColumn *column, int columns, const CudaCol
   Cuda *c = cuda_of(sim);
   CudaError *error = &c->error;
   char used[2 * CUDA_COLUMNS] = {0};
-  PointsOf p = {NULL, NULL, NULL, c->root, c->unit, {NULL, NULL}};
+  struct CudaOrder *o = c->order;
+  Moved p = {NULL,         NULL,      NULL,     c->root,     c->unit,
+             {NULL, NULL}, o->report, o->first, o->is_first, order_first(sim->s.n)};
   Moves m;
   int left = 0;
   m.moves = 0;
   for (int k = 0; k < columns; k++) {
     const int bytes = bytes_of(column + k);
-    void **spare = m.moves < MOVES ? spare_of(c->order, idle, idles, used, bytes) : NULL;
+    void **spare = m.moves < MOVES ? spare_of(o, idle, idles, used, bytes) : NULL;
     if (!spare) {
       column[left++] = column[k];
       continue;
@@ -283,10 +318,10 @@ static int permute_some(Sim *sim, CudaColumn *column, int columns, const CudaCol
     m.move[m.moves++].bytes = bytes;
     *column[k].array = *spare, *spare = old;
   }
-  p.x = sim->s.x, p.h = sim->s.h, p.m = sim->s.m;
+  if (!left) p.x = sim->s.x, p.h = sim->s.h, p.m = sim->s.m;
   if (!left && sim->pull_due) p.to = c->x;
-  LAUNCH(permute, launch_blocks((size_t)sim->s.n, THREADS), THREADS, 0, c->stream, m, p,
-         c->order->from[0], sim->s.n);
+  LAUNCH(permute, launch_blocks((size_t)sim->s.n, THREADS), THREADS, 0, c->stream, m, p, o->from[0],
+         sim->s.n);
   return left;
 }
 
@@ -363,7 +398,8 @@ size_t cuda_order_bytes(Sim *sim)
   int bytes[CUDA_COLUMNS];
   size_t row = 2 * (sizeof(uint64_t) + sizeof(uint32_t));
   for (int k = spares_of(sim, bytes); k-- > 0;) row += (size_t)bytes[k];
-  return (size_t)sim->s.n * row + sort_bytes(sim) + SPANS * sizeof(Extent);
+  return (size_t)sim->s.n * row + sort_bytes(sim) + SPANS * sizeof(Extent) +
+         (size_t)order_first(sim->s.n) * sizeof(int) + (size_t)sim->s.n / CUDA_GROUP;
 }
 
 int cuda_order_open(Sim *sim, Err *err)
@@ -385,7 +421,9 @@ int cuda_order_open(Sim *sim, Err *err)
       cuda_alloc(sim, (void **)&o->part, SPANS * sizeof(Extent), err) ||
       cuda_alloc(sim, (void **)&o->ticket, sizeof *o->ticket, err) ||
       cuda_alloc(sim, (void **)&c->root, sizeof *c->root, err) ||
-      cuda_alloc(sim, (void **)&o->report, sizeof *o->report, err))
+      cuda_alloc(sim, (void **)&o->report, sizeof *o->report, err) ||
+      cuda_alloc(sim, (void **)&o->first, (size_t)order_first(sim->s.n) * sizeof *o->first, err) ||
+      cuda_alloc(sim, (void **)&o->is_first, n / CUDA_GROUP + 1, err))
     return -1;
   const int spares = spares_of(sim, bytes);
   for (; o->spares < spares; o->spares++) {
@@ -404,6 +442,7 @@ void cuda_order_close(Sim *sim)
   for (int k = 0; k < 2; k++) cuda_free(o->key[k]), cuda_free(o->from[k]);
   for (int k = 0; k < o->spares; k++) cuda_free(o->spare[k].at);
   cuda_free(o->sort), cuda_free(o->part), cuda_free(o->ticket), cuda_free(o->report);
+  cuda_free(o->first), cuda_free(o->is_first);
   cuda_free(c->root), c->root = NULL;
   cudaFreeHost(o->host);
   free(o);

@@ -6,7 +6,8 @@
  * targets: a thread does 4 targets and 8 candidates, which come from shared memory. The hits are
  * bits; when all tiles are there each thread knows how long its list is, the warp takes rows for
  * the longest, and the bits become numbers, row by row. What does not fit into the tiles is counted
- * only, and the walk is made once more.
+ * only, and the walk is made once more. Groups in many pieces, debris, take the longest and are
+ * searched first, so that none of them is alone at the end.
  *
  * The test is (s_i + s_j)^2 - |x_i - x_j|^2 > 0 as a sum of products, s as in tree.cuh, rounded
  * up by EPS, which is more than the sum can lose: four products and as many additions of terms
@@ -37,6 +38,9 @@ typedef struct {
   long room;
   Report *report;
   Lists out;
+  const int *first; /* groups that are searched before the others, at most `most` */
+  const char *is_first;
+  int most;
 } Search;
 
 /* Where a piece of the warp's particles lies. */
@@ -57,6 +61,7 @@ typedef struct {
   uint32_t j[(TILES + 1) * 32];
   uint32_t hit[TILES * 32]; /* of each tile and target, a bit a candidate */
   Box box;
+  uint32_t first; /* the warp's first particle */
 } Desk;
 
 /* The piece's targets, and what the walk has collected for them. */
@@ -103,7 +108,7 @@ static __device__ __forceinline__ float size3(float x, float y, float z)
 }
 
 /* Tests tile number p->tiles of the ring against the targets. */
-static __device__ __forceinline__ void test_tile(Desk *w, Piece *p, uint32_t first)
+static __device__ __forceinline__ void test_tile(Desk *w, Piece *p)
 {
   const int lane = lane_of(), q = lane / 8, tile = p->tiles;
   const int at = slot_of((tile & 1) * 32 + 8 * q);
@@ -123,7 +128,7 @@ static __device__ __forceinline__ void test_tile(Desk *w, Piece *p, uint32_t fir
 #pragma unroll
   for (int k = 0; k < 4; k++) to[4 * (lane % 8 + 8 * k) + q] = (unsigned char)byte[k];
   __syncwarp();
-  const uint32_t self = w->j[32 * tile + lane] - first; /* nobody is a neighbour of itself */
+  const uint32_t self = w->j[32 * tile + lane] - w->first; /* nobody is a neighbour of itself */
   if (self < 32) w->hit[32 * tile + self] &= ~(1u << lane);
   __syncwarp();
 }
@@ -143,14 +148,14 @@ static __device__ bool interact(const State &s, long i, long j)
 }
 
 /* Takes the hits of the last tile back that do not interact. */
-static __device__ void verify_tile(const Search &a, Desk *w, const Piece *p, uint32_t first)
+static __device__ void verify_tile(const Search &a, Desk *w, const Piece *p)
 {
   const int lane = lane_of(), at = 32 * p->tiles;
   const uint32_t hits = w->hit[at + lane];
   uint32_t good = hits;
   for (uint32_t left = hits; left; left &= left - 1) {
     const int k = __ffs((int)left) - 1;
-    if (!interact(a.s, (long)first + lane, w->j[at + k])) good &= ~(1u << k);
+    if (!interact(a.s, (long)w->first + lane, w->j[at + k])) good &= ~(1u << k);
   }
   w->hit[at + lane] = good;
   __syncwarp();
@@ -179,7 +184,6 @@ static __device__ void empty_tiles(Desk *w, Piece *p, uint32_t *rows, int *k)
 
 /* Where hits go: rows NULL: first pass, they stay in the tiles as long as they fit. */
 typedef struct {
-  uint32_t first; /* the warp's first particle */
   uint32_t *rows;
   int k; /* this thread's hits that have left the tiles */
   bool again;
@@ -187,8 +191,8 @@ typedef struct {
 
 static __device__ __forceinline__ void finish_tile(const Search &a, Desk *w, Piece *p, Result *r)
 {
-  test_tile(w, p, r->first);
-  if (p->loose) verify_tile(a, w, p, r->first);
+  test_tile(w, p);
+  if (p->loose) verify_tile(a, w, p);
   p->filled -= 32;
   if (++p->tiles < TILES) return;
   /* The ring's other half and the numbers after the last tile begin the next round. */
@@ -398,9 +402,10 @@ static __device__ unsigned jumps(const Search &a, bool on, long i, int4 v)
 }
 
 /* All pieces, one after another. */
-static __device__ __forceinline__ void search_pieces(const Search &a, Desk *w, Piece *p, Result *r,
-                                                     bool on, long i)
+static __device__ __forceinline__ void search_pieces(const Search &a, Desk *w, Piece *p, Result *r)
 {
+  const long i = (long)w->first + lane_of();
+  const bool on = i < a.s.n;
   const int4 place = on ? a.place[i] : make_int4(0, 0, 0, 0);
   unsigned begin = jumps(a, on, i, place);
   p->tiles = 0;
@@ -414,7 +419,7 @@ static __device__ __forceinline__ void search_pieces(const Search &a, Desk *w, P
 }
 
 /* Rows for the warp's lists, of which this thread's is `mine` long; false: there is no room. */
-static __device__ bool take_rows(const Search &a, long group, int mine, uint32_t **list)
+static __device__ bool take_rows(const Search &a, uint32_t group, int mine, uint32_t **list)
 {
   const int rows = -min_all(-mine);
   unsigned long long at = 0;
@@ -427,24 +432,35 @@ static __device__ bool take_rows(const Search &a, long group, int mine, uint32_t
   return (int64_t)(at + rows) * CUDA_GROUP <= a.out.room;
 }
 
+/* What warp number `warp` searches for: those first that take longest, so that the last to end are
+ * not among them; -1: nothing. */
+static __device__ __forceinline__ int group_of(const Search &a, int warp)
+{
+  const int early = min(a.report->scattered, a.most);
+  if (warp < early) return a.first[warp];
+  const int group = warp - early;
+  return (long)group * CUDA_GROUP < a.s.n && !a.is_first[group] ? group : -1;
+}
+
 static __global__ void __launch_bounds__(THREADS, 5) search_groups(const __grid_constant__ Search a)
 {
   __shared__ Desk desk[WARPS];
   const int lane = lane_of();
-  const long group = (long)blockIdx.x * WARPS + threadIdx.x / 32, i = group * CUDA_GROUP + lane;
-  const bool on = i < a.s.n;
   Desk *w = desk + threadIdx.x / 32;
-  if (group * CUDA_GROUP >= a.s.n || *a.nodes > a.room) return;
+  const int group = group_of(a, (int)blockIdx.x * WARPS + (int)threadIdx.x / 32);
+  if (group < 0 || *a.nodes > a.room) return;
+  if (lane == 0) w->first = (uint32_t)group * CUDA_GROUP;
+  __syncwarp();
   Piece p;
-  Result r = {(uint32_t)(group * CUDA_GROUP), NULL, 0, false};
+  Result r = {NULL, 0, false};
 #pragma unroll 1
   for (int pass = 0; pass == 0 || (pass == 1 && r.again); pass++) {
-    search_pieces(a, w, &p, &r, on, i);
+    search_pieces(a, w, &p, &r);
     if (pass > 0) continue;
     int mine = r.k;
     for (int t = 0; t < p.tiles; t++) mine += __popc(w->hit[32 * t + lane]);
-    if (on) a.out.count[i] = mine;
-    if (!take_rows(a, group, mine, &r.rows)) return;
+    if ((long)w->first + lane < a.s.n) a.out.count[w->first + lane] = mine;
+    if (!take_rows(a, w->first / CUDA_GROUP, mine, &r.rows)) return;
     r.k = 0;
   }
   empty_tiles(w, &p, r.rows, &r.k);
@@ -481,12 +497,15 @@ int cuda_lists(Sim *sim, Err *err)
   CudaError *error = &c->error;
   struct CudaOrder *o = c->order;
   Report *r = o->host;
-  const unsigned blocks = launch_blocks((size_t)sim->s.n, THREADS);
+  const int most = order_first(sim->s.n);
+  const unsigned blocks =
+      launch_blocks((size_t)sim->s.n, THREADS) + launch_blocks((size_t)most, WARPS);
   for (;;) {
     Search a = {sim->s,       c->unit,         c->root,
                 c->tree.link, c->build->place, c->tree.lo,
                 c->tree.hi,   c->build->drift, c->tree.level + CUDA_LEVELS + 1,
-                c->tree.room, o->report,       c->lists};
+                c->tree.room, o->report,       c->lists,
+                o->first,     o->is_first,     most};
     CHECK(cudaMemsetAsync(&o->report->rows, 0, sizeof r->rows, c->stream));
     LAUNCH(search_groups, blocks, THREADS, 0, c->stream, a);
     CHECK(cudaMemcpyAsync(r, o->report, sizeof *r, cudaMemcpyDeviceToHost, c->stream));

@@ -16,6 +16,7 @@ typedef struct {
   double value;    /* its coordinate [m] */
   long long loose; /* smallest id with a y, h or ha that is not finite, or INT64_MAX */
   int nodes, deepest;
+  int scattered;           /* groups that would be searched first, were there room for all */
   unsigned long long rows; /* taken in the lists: 32 entries each */
 } Report;
 
@@ -36,7 +37,12 @@ struct CudaOrder {
   Report *report, *host; /* on the device, in pinned memory */
   Spare spare[CUDA_COLUMNS];
   int spares;
+  int *first; /* [order_first] groups whose particles lie scattered: they take longest to search */
+  char *is_first; /* [groups] */
 };
+
+/* order_first: how many groups may be searched before the others. */
+static inline int order_first(long n) { return (int)(n / CUDA_GROUP / 8 + 1); }
 
 /* A pair can interact at x or at y only when |x_i - x_j| < s_i + s_j + |D_i - D_j|, with s the
  * larger of h/2 and ha/2 + |y - x - D|, and D the mean of y - x in the leaf. */
