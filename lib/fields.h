@@ -27,6 +27,7 @@
   F(double,  phi,    1, "Potential",        "J/kg",     "solver",   "specific gravitational potential") \
   F(double,  pmax,   1, "PeakPressure",     "Pa",       "solver",   "largest pressure so far") \
   F(double,  strain, 1, "PlasticStrain",    "1",        "solver",   "accumulated equivalent plastic strain") \
+  F(double,  T,      1, "Temperature",      "K",        "solver",   "temperature, of materials whose strength depends on it") \
   F(int32_t, nngb,   1, "NeighbourNumber",  "1",        "solver",   "interacting particles, without itself") \
   F(int32_t, frag,   1, "FragmentID",       "1",        "fof",      "fragment, 1 = most massive, 0 = none") \
   F(int32_t, clump,  1, "ClumpID",          "1",        "clumps",   "bound body, 1 = most massive, 0 = none")

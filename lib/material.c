@@ -106,6 +106,15 @@ static int consistent(const config_setting_t *root, const Material *m, const cha
     return cfg_where(err, strength, label, "a gas has no shear modulus");
   if (m->yield.form != YIELD_NONE && m->mu <= 0)
     return cfg_where(err, strength, label, "a yield stress needs a 'shear_modulus' above 0");
+  if (m->yield.form == YIELD_JOHNSON_COOK && m->heat <= 0)
+    return cfg_where(err, strength, label, "johnson_cook needs a 'heat_capacity' in 'eos'");
+  if (m->yield.form == YIELD_JOHNSON_COOK &&
+      m->yield.johnson_cook.Tmelt <= m->yield.johnson_cook.T0)
+    return cfg_where(err, config_setting_get_member(strength, "Tmelt"), label,
+                     "'Tmelt' must be above 'T0'");
+  if (m->yield.form == YIELD_COLLINS && m->yield.collins.limit < m->yield.collins.cohesion)
+    return cfg_where(err, config_setting_get_member(strength, "limit"), label,
+                     "'limit' must not be below 'cohesion'");
   if (m->damage.form != DAMAGE_NONE && m->mu <= 0)
     return cfg_where(err, damage, label, "'damage' needs a 'shear_modulus' above 0 in 'strength'");
   return 0;

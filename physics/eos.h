@@ -102,6 +102,12 @@ HD double eos_bulk(const Eos *e)
   return rho0 * c * c;
 }
 
+/* eos_vapour: whether there is vapour in matter at rho, u, as far as the law knows phases. */
+HD int eos_vapour(const Eos *e, double rho, double u)
+{
+  return e->form == EOS_TILLOTSON && u > e->tillotson.Eiv && rho < e->tillotson.rho0;
+}
+
 /* eos_uses_energy: whether p depends on u (else the energy is carried along but has no effect). */
 HD int eos_uses_energy(const Eos *e)
 {

@@ -9,11 +9,15 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* HD_CALL: a function that is called, not inlined: laws that few runs use and that would cost the
+ * others registers. */
 #ifdef __CUDACC__
 #define HD       static __host__ __device__ __forceinline__
+#define HD_CALL  static __host__ __device__ __attribute__((noinline, unused))
 #define RESTRICT __restrict__
 #else
 #define HD       static inline __attribute__((always_inline, unused))
+#define HD_CALL  static __attribute__((noinline, unused))
 #define RESTRICT restrict
 #endif
 

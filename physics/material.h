@@ -15,20 +15,28 @@
   X(heat_capacity, heat, "J/K/kg", "0", 0, 1e6, "at constant volume: T = (u - u_cold(rho))/heat_capacity; 0: no temperature")
 #define MATERIAL_STRENGTH_ROWS(X) \
   X(shear_modulus, mu,   "Pa",   NULL, 0, 1e30, "shear modulus") \
-  X(melt_energy,   melt, "J/kg", "0",  0, 1e30, "specific energy of the melt; 0: strength does not depend on u")
+  X(melt_energy,   melt, "J/kg", "0",  0, 1e30, "specific energy of the melt; 0: strength does not depend on u") \
+  X(weak_limit, weak.limit, "1", "0", 0, 1, "low-density weakening: rho/rho0 down to which the cohesion falls to weak_gamma; 0: none") \
+  X(weak_alpha, weak.alpha, "1", "1", 0, 100, "exponent above weak_limit") \
+  X(weak_beta,  weak.beta,  "1", "1", 0, 100, "exponent below weak_limit") \
+  X(weak_gamma, weak.gamma, "1", "1", 0, 1,   "what is left of the cohesion at weak_limit")
 /* clang-format on */
 
 typedef struct {
-  Eos eos;       /* equation of state */
-  double heat;   /* heat capacity at constant volume [J/K/kg]; 0: unknown */
-  double mu;     /* shear modulus [Pa]; 0: a fluid, no deviatoric stress */
-  Yield yield;   /* limit of the deviatoric stress */
-  Damage damage; /* brittle fragmentation */
-  double melt;   /* specific energy at which the material melts [J/kg]; 0: unknown */
+  Eos eos;        /* equation of state */
+  double heat;    /* heat capacity at constant volume [J/K/kg]; 0: unknown */
+  double mu;      /* shear modulus [Pa]; 0: a fluid, no deviatoric stress */
+  Yield yield;    /* limit of the deviatoric stress */
+  Damage damage;  /* brittle fragmentation */
+  double melt;    /* specific energy at which the material melts [J/kg]; 0: unknown */
+  YieldWeak weak; /* low-density weakening; limit 0: none */
 } Material;
 
 /* material_brittle: whether weibull gives it flaws. */
 HD int material_brittle(const Material *m) { return m->damage.form != DAMAGE_NONE; }
+
+/* material_heats: whether its strength has a temperature of its own (field Temperature). */
+HD int material_heats(const Material *m) { return m->yield.form == YIELD_JOHNSON_COOK; }
 
 /* material_young: Young's modulus [Pa] E = 9 K mu / (3 K + mu), K the bulk modulus of the EOS at
  * zero pressure (001 eq. 49). */

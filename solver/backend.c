@@ -42,6 +42,11 @@ static long find(Sim *sim, int64_t id)
   return i < n ? i : -1;
 }
 
+int backend_idle(const Sim *sim, const char *member)
+{
+  return strcmp(member, "T") == 0 && !sim->heated;
+}
+
 void backend_look(Sim *sim, int64_t id, char *text, size_t size)
 {
   const State *s = &sim->s;

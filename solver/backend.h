@@ -85,6 +85,7 @@ struct Sim {
   Material *material; /* [materials], host */
   int materials;
   int solid;    /* any material with a shear modulus, and strength on */
+  int heated;   /* any material whose strength has a temperature of its own, and strength on */
   int miscible; /* the number-density form */
   State s;
   void *own;       /* the backend's */
@@ -104,6 +105,10 @@ struct Sim {
 /* backend_find: what "auto", "cpu", "cuda" or "cuda:K" means here; auto is a card when there is
  * one. NULL with a message. */
 const struct backend *backend_find(const char *device, int *card, Err *err);
+
+/* backend_idle: whether no pass of this run reads or writes the field of the state by that name: no
+ * backend holds an array for it. */
+int backend_idle(const Sim *sim, const char *member);
 
 /* backend_look: the state of one particle as text, for error messages. */
 void backend_look(Sim *sim, int64_t id, char *text, size_t size);

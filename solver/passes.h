@@ -6,8 +6,7 @@
 #define PASSES_H
 
 #include "../physics/pair.h"
-#include "../physics/tensor.h"
-#include "state.h"
+#include "matter.h"
 
 enum { BODIES = 8 };
 
@@ -49,25 +48,6 @@ enum {
   BAD_STRESS
 };
 
-/* passes_stress: the six numbers of particle i as a tensor, and back. */
-HD Sym passes_stress(const double *s)
-{
-  Sym t = {s[0], s[1], s[2], s[3], s[4], s[5]};
-  return t;
-}
-
-HD void passes_keep_stress(double *s, Sym t)
-{
-  s[0] = t.xx, s[1] = t.xy, s[2] = t.xz, s[3] = t.yy, s[4] = t.yz, s[5] = t.zz;
-}
-
-/* passes_own_stress: S of particle i; none when it is no solid. */
-HD Sym passes_own_stress(const State *s, long i, int solid)
-{
-  const Sym none = {0, 0, 0, 0, 0, 0};
-  return solid ? passes_stress(&s->s[6 * i]) : none;
-}
-
 /* passes_jaumann: dS/dt = 2 mu (e - tr e/3) + R S - S R, R = (g - g^T)/2. Corrects the sign of 001
  * eq. 9 (docs/theory.md 9). */
 HD Sym passes_jaumann(Sym s, const double *g, double mu)
@@ -105,13 +85,6 @@ HD Sym passes_rotate(Sym s, const double *g, double dt)
   return s;
 }
 
-/* passes_strain_rate: the symmetric part of g. */
-HD Sym passes_strain_rate(const double *g)
-{
-  Sym e = {g[0], 0.5 * (g[1] + g[3]), 0.5 * (g[2] + g[6]), g[4], 0.5 * (g[5] + g[7]), g[8]};
-  return e;
-}
-
 /* passes_elastic: S after dt: half the rotation, Hooke's law for the deviatoric strain, the
  * other half. Second order; a pure rotation is exact. */
 HD Sym passes_elastic(Sym s, const double *g, double mu, double dt)
@@ -130,59 +103,6 @@ HD double passes_work(double p, Sym s, double damage, double div, const double *
   double left = 1 - damage, w = -(p < 0 ? left * p : p) * div;
   if (solid) w += left * tensor_dot(s, passes_strain_rate(g));
   return w / rho;
-}
-
-/* passes_eos: p, cs and the longitudinal wave speed of i at energy u. */
-HD void passes_eos(const State *s, long i, double u)
-{
-  const Material *m = &s->material[s->mat[i]];
-  const double *x = &s->x[3 * i];
-  EosPoint e = eos_eval(&m->eos, s->rho[i], u, sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]));
-  s->ue[i] = u;
-  s->p[i] = e.p;
-  s->cs[i] = e.cs;
-  s->cl[i] = m->mu > 0 ? sqrt(e.cs * e.cs + 4. / 3 * m->mu / s->rho[i]) : e.cs;
-}
-
-/* passes_yield: limits the deviatoric stress of i; what it gives up is plastic strain (count: added
- * up, at the end of a step only). */
-HD void passes_yield(const State *s, long i, int count)
-{
-  const Material *m = &s->material[s->mat[i]];
-  Sym d = passes_stress(&s->s[6 * i]);
-  double j2 = tensor_j2(d),
-         f = yield_factor(&m->yield, j2, s->p[i], s->damage[i], s->ue[i], m->melt);
-  if (f >= 1) return;
-  if (count) s->strain[i] += (1 - f) * sqrt(3 * j2) / (3 * m->mu);
-  passes_keep_stress(&s->s[6 * i], tensor_scale(d, f));
-}
-
-/* passes_strain: the local scalar strain sigma_max/((1-D) E) (001 eq. 48); the stress is the
- * damaged one. */
-HD double passes_strain(const State *s, long i)
-{
-  const Material *m = &s->material[s->mat[i]];
-  double left = 1 - s->damage[i], p = s->p[i], largest;
-  if (left <= 0) return 0;
-  largest = left * tensor_largest(passes_stress(&s->s[6 * i])) - (p < 0 ? left * p : p);
-  return largest > 0 ? largest / (left * material_young(m)) : 0;
-}
-
-/* passes_damage: activates flaws and lets cracks grow for dt; keeps the rate of the cube root of D
- * for the step limit and for rk2. */
-HD void passes_damage(const State *s, long i, double dt)
-{
-  const Material *m = &s->material[s->mat[i]];
-  int active;
-  double cg;
-  s->dcrack[i] = 0;
-  if (m->damage.form == DAMAGE_NONE || s->nflaw[i] == 0 || m->mu <= 0) return;
-  active = damage_active(s->flaw + s->flaw0[i], s->nflaw[i], passes_strain(s, i));
-  if (active == 0) return;
-  if (active > s->nact[i]) s->nact[i] = active;
-  cg = damage_crack_speed(&m->damage.grady_kipp, eos_bulk(&m->eos), m->mu, s->damage[i], s->rho[i]);
-  if (damage_left(s->damage[i], s->nact[i], s->nflaw[i]) > 0) s->dcrack[i] = active * cg / s->h[i];
-  s->damage[i] = damage_grow(s->damage[i], active, s->nact[i], s->nflaw[i], cg, s->h[i], dt);
 }
 
 /* passes_pack: p and S C as the force loop takes them. C, the inverse moment matrix of loop A,
@@ -288,15 +208,15 @@ HD void pass_advance(const State *s, const Step *k, long i)
     mid = tensor_scale(tensor_axpy(old, 1, now), 0.5);
   }
   if (k->energy == 2) {
-    passes_eos(s, i, u);
+    matter_eos(s, i, u, k->strength);
   } else {
     solid = solid && k->energy == 0;
     work = passes_work(p, mid, s->damage[i], s->divv[i], g, s->rhoa[i], solid);
-    passes_eos(s, i, u + k->dt * (work + heat));
+    matter_eos(s, i, u + k->dt * (work + heat), k->strength);
     work = passes_work(0.5 * (p + s->p[i]), mid, s->damage[i], s->divv[i], g, s->rhoa[i], solid);
-    passes_eos(s, i, u + k->dt * (work + heat));
+    matter_eos(s, i, u + k->dt * (work + heat), k->strength);
   }
-  if (mu > 0) passes_yield(s, i, 1);
+  if (mu > 0) matter_yield(s, i, 1, k->dt * heat);
   if (k->damage) passes_damage(s, i, k->dt);
   passes_pack(s, k, i, mu > 0, 0.5 * k->dt);
 }
@@ -357,8 +277,8 @@ HD void pass_local(const State *s, const Step *k, long i)
 {
   double mu = k->strength ? s->material[s->mat[i]].mu : 0;
   passes_density(s, k, i);
-  passes_eos(s, i, s->u[i]);
-  if (mu > 0) passes_yield(s, i, 0);
+  matter_eos(s, i, s->u[i], k->strength);
+  if (mu > 0) matter_yield(s, i, 0, 0);
   if (k->damage) passes_damage(s, i, 0);
   if (s->ds)
     passes_keep_stress(&s->ds[6 * i],
@@ -429,8 +349,9 @@ HD void pass_settle(const State *s, const Step *k, long i)
 {
   double h = s->h[i] * passes_crowd(s, k, i);
   s->h[i] = h < k->h_min ? k->h_min : h > k->h_max ? k->h_max : h;
-  passes_eos(s, i, s->u[i]);
-  if (k->strength && s->material[s->mat[i]].mu > 0) passes_yield(s, i, 1);
+  matter_eos(s, i, s->u[i], k->strength);
+  if (k->strength && s->material[s->mat[i]].mu > 0)
+    matter_yield(s, i, 1, k->energy == 0 ? k->dt * s->dqdt[i] : 0);
 }
 
 /* pass_correct: divv, and the corrected velocity gradient g = raw C with C, the inverse of the

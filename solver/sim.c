@@ -58,15 +58,37 @@ static int open_common(Sim *sim, const Param *par, const Parts *p, const char *d
   sim->slots = integrator_of(par->integrator)->slots;
   sim->miscible = par->density == PARAM_MISCIBLE;
   if (!(sim->material = material_load(p, err))) return -1;
-  for (int k = 0; k < p->materials; k++) sim->solid |= par->strength && sim->material[k].mu > 0;
+  for (int k = 0; k < p->materials; k++) {
+    const Material *m = &sim->material[k];
+    sim->solid |= par->strength && m->mu > 0;
+    sim->heated |= par->strength && material_heats(m);
+  }
   return 0;
+}
+
+/* hand_over: the particles to the backend; what a material begins with where the file says nothing
+ * (no such field, or 0, as it is where bodies were joined) is filled in before. */
+static int hand_over(Sim *sim, const Parts *p, Err *err)
+{
+  Parts whole = *p;
+  size_t n = (size_t)p->n;
+  double *T = sim->heated ? calloc(n + 1, sizeof *T) : NULL;
+  int bad = sim->heated && !T ? err_set(err, "not enough memory for %ld particles", p->n) : 0;
+  for (long i = 0; T && i < p->n; i++) {
+    const Material *m = &sim->material[p->mat[i]];
+    T[i] = p->T && p->T[i] > 0 ? p->T[i] : material_heats(m) ? m->yield.johnson_cook.T0 : 0;
+  }
+  if (T) whole.T = T;
+  bad = bad || sim->b->open(sim, &whole, err);
+  free(T);
+  return bad ? -1 : 0;
 }
 
 int sim_open(Sim *sim, const Param *par, const Parts *p, const char *device, Err *err)
 {
   if (open_common(sim, par, p, device, err)) return sim_close(sim), -1;
   smoothing_range(sim, p);
-  if (sim->b->open(sim, p, err) || integrator_of(sim->par.integrator)->start(sim, err))
+  if (hand_over(sim, p, err) || integrator_of(sim->par.integrator)->start(sim, err))
     return sim_close(sim), -1;
   return 0;
 }
@@ -89,6 +111,7 @@ int sim_restart(Sim *sim, const Param *par, const Parts *p, const char *device, 
   if (open_common(sim, par, p, device, err)) return sim_close(sim), -1;
   if (part_need(p, "a dudt dqdt divv p cs s nact signal dcrack nngb", "checkpoint", err))
     return sim_close(sim), -1;
+  if (sim->heated && part_need(p, "T", "checkpoint", err)) return sim_close(sim), -1;
   sim->par.h_min = part_number(p, "run", "SmoothingMin"),
   sim->par.h_max = part_number(p, "run", "SmoothingMax");
   sim->dt = part_number(p, "run", "NextStep");
@@ -99,7 +122,7 @@ int sim_restart(Sim *sim, const Param *par, const Parts *p, const char *device, 
         err, "the checkpoint lacks the attributes of /Run: it is a snapshot, not a checkpoint");
   }
   if (par->gravity_every > 1 && restart_outer(sim, p, err)) return sim_close(sim), -1;
-  if (sim->b->open(sim, p, err)) return sim_close(sim), -1;
+  if (hand_over(sim, p, err)) return sim_close(sim), -1;
   return 0;
 }
 
@@ -200,7 +223,8 @@ int sim_send(Sim *sim, Parts *p, Err *err)
 {
   Limits l;
   if (limits_of(sim, &l, err) || part_add(p, stored, err) ||
-      (sim->par.gravity_every > 1 && part_add(p, "pull", err)) || sim->b->store(sim, p, err))
+      (sim->par.gravity_every > 1 && part_add(p, "pull", err)) ||
+      (sim->heated && part_add(p, "T", err)) || sim->b->store(sim, p, err))
     return -1;
   p->time = sim->time;
   if (sim->par.gravity_every > 1 &&

@@ -9,6 +9,8 @@
 #include "../solver/reduce.h"
 
 /* Materials in units of their own, every law among them. */
+#define LIQUID(NAME)                                                                               \
+  "name = \"" NAME "\"; eos = { form = \"liquid\"; rho0 = 1.; c = 1.; heat_capacity = 1.; };"
 static const char *const materials[] = {
     "name = \"a\"; eos = { form = \"murnaghan\"; rho0 = 1.; K = 1.; n = 2.; };"
     "strength = { shear_modulus = 1.; form = \"von_mises\"; Y = 0.1; melt_energy = 1.5; };"
@@ -23,7 +25,18 @@ static const char *const materials[] = {
     "name = \"f\"; eos = { form = \"polytropic\"; K = 1.; gamma = 1.6; };",
     "name = \"g\"; eos = { form = \"isothermal\"; c = 1.; };",
     "name = \"h\"; eos = { form = \"local_isothermal\"; aspect = 0.1; mass = 1e10; r_min = 0.1; "
-    "};"};
+    "};",
+    LIQUID("i") "strength = { shear_modulus = 1.; form = \"drucker_prager\"; cohesion = 0.1;"
+                "friction = 0.5; weak_limit = 0.9; weak_gamma = 0.5; };",
+    LIQUID("j") "strength = { shear_modulus = 1.; form = \"mohr_coulomb\"; cohesion = 0.1;"
+                "friction = 0.5; };",
+    LIQUID("k") "strength = { shear_modulus = 1.; form = \"lundborg\"; cohesion = 0.1;"
+                "friction = 1.; limit = 0.3; };",
+    LIQUID(
+        "l") "strength = { shear_modulus = 1.; form = \"collins\"; cohesion = 0.1; friction = 1.;"
+             "limit = 0.3; friction_damaged = 0.5; melt_energy = 2.; };",
+    LIQUID("m") "strength = { shear_modulus = 1.; form = \"johnson_cook\"; A = 0.1; B = 0.1;"
+                "n = 0.3; C = 0.1; rate0 = 0.1; T0 = 0.; Tmelt = 2.; };"};
 enum { MATERIALS = sizeof materials / sizeof *materials };
 
 /* The arrays of a State. */

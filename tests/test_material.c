@@ -51,7 +51,8 @@ static double trial(int k, double max) { return max < 2 ? max - 0.01 * k : 1.5 +
   {                                                                                                \
     char text[4096], *at = text + sprintf(text,                                                    \
                                           "name = \"x\"; eos = { form = \"liquid\"; rho0 = 1;"     \
-                                          "c = 1; }; strength = { shear_modulus = 7;"              \
+                                          "c = 1; heat_capacity = 1; };"                           \
+                                          "strength = { shear_modulus = 7;"                        \
                                           "melt_energy = 3; form = \"%s\";\n",                     \
                                           #NAME);                                                  \
     Material m;                                                                                    \
@@ -112,6 +113,11 @@ static void mistakes(void **state)
        "x.cfg:3: unknown key 'Y'"},
       {"name = \"x\";\n" EOS "strength = { form = \"von_mises\"; shear_modulus = 0; Y = 2; };",
        "x.cfg:3: a yield stress needs a 'shear_modulus'"},
+      {"name = \"x\";\n" EOS "strength = { form = \"johnson_cook\"; shear_modulus = 1; A = 1; };",
+       "x.cfg:3: johnson_cook needs a 'heat_capacity'"},
+      {"name = \"x\";\n" EOS "strength = { form = \"collins\"; shear_modulus = 1; cohesion = 2;"
+       "friction = 1;\nlimit = 1; friction_damaged = 1; };",
+       "x.cfg:4: 'limit' must not be below 'cohesion'"},
       {"name = \"x\";\n" EOS DAMAGE, "x.cfg:3: 'damage' needs a 'shear_modulus'"},
       {"name = \"x\";\neos = { form = \"ideal\"; gamma = 1.4; };\n" SOLID, "x.cfg:3: a gas has no"},
       {"name = \"x\";\n" EOS SOLID "damage = { form = \"grady_kipp\"; k = 1; m = 16; crack = 3; };",

@@ -16,12 +16,10 @@ struct yield_benz_asphaug {
 #undef YIELD_ROW
 };
 
-HD double yield_benz_asphaug(const struct yield_benz_asphaug *y, double j2, double p, double damage,
-                             double soft)
+HD double yield_benz_asphaug(const struct yield_benz_asphaug *y, const YieldPoint *at)
 {
-  double limit = y->Y * soft, limit2 = limit * limit;
-  (void)p, (void)damage;
-  return 3 * j2 > limit2 ? limit2 / (3 * j2) : 1;
+  double limit = y->Y * at->soft * at->weak, limit2 = limit * limit;
+  return 3 * at->j2 > limit2 ? limit2 / (3 * at->j2) : 1;
 }
 
 #endif

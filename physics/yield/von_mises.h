@@ -16,12 +16,9 @@ struct yield_von_mises {
 #undef YIELD_ROW
 };
 
-HD double yield_von_mises(const struct yield_von_mises *y, double j2, double p, double damage,
-                          double soft)
+HD double yield_von_mises(const struct yield_von_mises *y, const YieldPoint *at)
 {
-  double limit = y->Y * soft, stress = sqrt(3 * j2);
-  (void)p, (void)damage;
-  return stress > limit ? limit / stress : 1;
+  return yield_return(sqrt(3 * at->j2), y->Y * at->soft * at->weak);
 }
 
 #endif

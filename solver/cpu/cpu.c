@@ -9,18 +9,19 @@
 #include "../recoil.h"
 #include "cpu.h"
 
-/* alloc: the arrays of the state, zeroed; -1 for lack of memory. */
-static int alloc_state(State *s, int slots)
+/* alloc: the arrays of the state that this run needs, zeroed; -1 for lack of memory. */
+static int alloc_state(Sim *sim)
 {
+  State *s = &sim->s;
   size_t n = (size_t)s->n;
   int bad = 0;
 #define CPU_ALLOC(TYPE, MEMBER, WIDTH, ...)                                                        \
-  bad |= !(s->MEMBER = calloc(n ? n * (WIDTH) : 1, sizeof(TYPE)));
+  if (!backend_idle(sim, #MEMBER)) bad |= !(s->MEMBER = calloc(n ? n * (WIDTH) : 1, sizeof(TYPE)));
   ALL_FIELDS(CPU_ALLOC)
   MOVED_FIELDS(CPU_ALLOC)
   WORK_FIELDS(CPU_ALLOC)
 #undef CPU_ALLOC
-  for (int k = 0; k < slots; k++) {
+  for (int k = 0; k < sim->slots; k++) {
 #define CPU_SLOT(MEMBER, WIDTH)                                                                    \
   bad |= !(s->saved[k].MEMBER = calloc(n ? n * (WIDTH) : 1, sizeof(double)));
     SAVED_FIELDS(CPU_SLOT)
@@ -51,7 +52,7 @@ static int fill(Sim *sim, const Parts *p, Err *err)
   size_t n = (size_t)s->n;
   int64_t at = 0;
 #define CPU_COPY(TYPE, MEMBER, WIDTH, ...)                                                         \
-  if (p->MEMBER) memcpy(s->MEMBER, p->MEMBER, n *(WIDTH) * sizeof(TYPE));
+  if (p->MEMBER && s->MEMBER) memcpy(s->MEMBER, p->MEMBER, n *(WIDTH) * sizeof(TYPE));
   ALL_FIELDS(CPU_COPY)
 #undef CPU_COPY
   for (long i = 0; i < s->n; i++) {
@@ -97,7 +98,7 @@ static int cpu_open(Sim *sim, const Parts *p, Err *err)
   c->scratch = malloc(c->share * (size_t)omp_get_max_threads());
   c->run.sigma = kernel_sigma(sim->par.kernel, p->dimension);
   c->run.alpha = sim->par.alpha, c->run.beta = sim->par.beta, c->run.dimension = p->dimension;
-  if (!c->order || !c->record || !c->scratch || alloc_state(&sim->s, sim->slots)) {
+  if (!c->order || !c->record || !c->scratch || alloc_state(sim)) {
     cpu_close(sim);
     return err_set(err, "not enough memory for %ld particles", p->n);
   }
@@ -110,7 +111,7 @@ static int cpu_store(Sim *sim, Parts *p, Err *err)
   const State *s = &sim->s;
   (void)err;
 #define CPU_STORE(TYPE, MEMBER, WIDTH, ...)                                                        \
-  for (long i = 0; p->MEMBER && i < s->n; i++)                                                     \
+  for (long i = 0; p->MEMBER && s->MEMBER && i < s->n; i++)                                        \
     memcpy(p->MEMBER + s->row[i] * (WIDTH), s->MEMBER + i * (WIDTH), sizeof(TYPE) * (WIDTH));
   ALL_FIELDS(CPU_STORE)
 #undef CPU_STORE
@@ -130,7 +131,7 @@ static int columns_of(const Sim *sim, Column column[COLUMNS])
   const State *s = &sim->s;
   int n = 0;
 #define CPU_COLUMN(TYPE, MEMBER, WIDTH, ...)                                                       \
-  column[n].array = (char *)s->MEMBER, column[n++].size = sizeof(TYPE) * (WIDTH);
+  if (s->MEMBER) column[n].array = (char *)s->MEMBER, column[n++].size = sizeof(TYPE) * (WIDTH);
   ALL_FIELDS(CPU_COLUMN)
   MOVED_FIELDS(CPU_COLUMN)
 #undef CPU_COLUMN

@@ -55,6 +55,7 @@ static int role_of(const Sim *sim, const char *name, int role)
   const Param *p = &sim->par;
   const int pulls = p->gravity != PARAM_NONE, fresh = p->gravity_every == 1,
             solid = sim->solid || sim->s.dimension == 1;
+  if (backend_idle(sim, name)) return IDLE;
   if (among("frag clump", name)) return IDLE; /* what only tools know */
   if (p->density == PARAM_CONTINUITY && among("delta", name)) return IDLE;
   if (!pulls && fresh && among("pull", name)) return IDLE;

@@ -74,6 +74,7 @@ static int step(Sim *sim, double *dt, Err *err)
   }
   factor = error > 0 ? 0.9 * pow(error, -0.3) : 2;
   sim->dt = *dt * fmin(2, fmax(1, factor));
+  k.dt = *dt;
   sim->b->pass(sim, PASS_SETTLE, &k);
   keep(sim);
   return 0;

@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What its material makes of a particle's state: equation of state, strength, damage. Parts of the
+ * passes; each looks the material up and works on row i. */
+#ifndef MATTER_H
+#define MATTER_H
+
+#include "../physics/tensor.h"
+#include "state.h"
+
+/* passes_stress: the six numbers of particle i as a tensor, and back. */
+HD Sym passes_stress(const double *s)
+{
+  Sym t = {s[0], s[1], s[2], s[3], s[4], s[5]};
+  return t;
+}
+
+HD void passes_keep_stress(double *s, Sym t)
+{
+  s[0] = t.xx, s[1] = t.xy, s[2] = t.xz, s[3] = t.yy, s[4] = t.yz, s[5] = t.zz;
+}
+
+/* passes_own_stress: S of particle i; none when it is no solid. */
+HD Sym passes_own_stress(const State *s, long i, int solid)
+{
+  const Sym none = {0, 0, 0, 0, 0, 0};
+  return solid ? passes_stress(&s->s[6 * i]) : none;
+}
+
+/* passes_strain_rate: the symmetric part of g. */
+HD Sym passes_strain_rate(const double *g)
+{
+  Sym e = {g[0], 0.5 * (g[1] + g[3]), 0.5 * (g[2] + g[6]), g[4], 0.5 * (g[5] + g[7]), g[8]};
+  return e;
+}
+
+/* matter_weak: what low density leaves of the cohesion. */
+HD double matter_weak(const Material *m, double rho)
+{
+  return m->weak.limit > 0 ? yield_weak(&m->weak, rho / eos_rho0(&m->eos)) : 1;
+}
+
+/* matter_tension: p, or the largest tension that the strength allows at u. */
+HD_CALL double matter_tension(const Material *m, double p, double rho, double u, double damage)
+{
+  double most = yield_tension(&m->yield, damage, yield_soft(u, m->melt), matter_weak(m, rho));
+  return p < -most ? -most : p;
+}
+
+/* matter_eos: p, cs and the longitudinal wave speed of i at energy u; with strength on, no more
+ * tension than the yield law has. */
+HD void matter_eos(const State *s, long i, double u, int strength)
+{
+  const Material *m = &s->material[s->mat[i]];
+  const double *x = &s->x[3 * i];
+  EosPoint e = eos_eval(&m->eos, s->rho[i], u, sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]));
+  if (e.p < 0 && strength && m->mu > 0 && yield_knows_pressure(&m->yield))
+    e.p = matter_tension(m, e.p, s->rho[i], u, s->damage[i]);
+  s->ue[i] = u;
+  s->p[i] = e.p;
+  s->cs[i] = e.cs;
+  s->cl[i] = m->mu > 0 ? sqrt(e.cs * e.cs + 4. / 3 * m->mu / s->rho[i]) : e.cs;
+}
+
+/* matter_rate: the equivalent strain rate sqrt(2/3 e:e) of the deviatoric strain rate [1/s]. */
+HD double matter_rate(const double *g)
+{
+  Sym e = passes_strain_rate(g);
+  double third = (e.xx + e.yy + e.zz) / 3;
+  e.xx -= third, e.yy -= third, e.zz -= third;
+  return sqrt(4 * tensor_j2(e) / 3);
+}
+
+/* matter_point: what a yield law may look at. */
+HD YieldPoint matter_point(const State *s, const Material *m, long i)
+{
+  Sym d = passes_stress(&s->s[6 * i]);
+  int heats = material_heats(m);
+  double soft = yield_soft(s->ue[i], m->melt), weak = matter_weak(m, s->rho[i]);
+  YieldPoint at = {d, tensor_j2(d), s->p[i], s->damage[i], soft, weak, 0, 0, 0};
+  if (heats) at.strain = s->strain[i], at.rate = matter_rate(&s->g[9 * i]), at.T = s->T[i];
+  return at;
+}
+
+/* The laws beside von Mises. */
+HD_CALL double matter_other_factor(const State *s, const Material *m, long i)
+{
+  YieldPoint at = matter_point(s, m, i);
+  return yield_factor(&m->yield, &at);
+}
+
+/* matter_factor: what the strength leaves of the deviatoric stress; nothing in vapour. */
+HD double matter_factor(const State *s, const Material *m, long i)
+{
+  if (eos_vapour(&m->eos, s->rho[i], s->ue[i])) return 0;
+  if (m->yield.form == YIELD_NONE) return 1;
+  if (m->yield.form == YIELD_VON_MISES) {
+    YieldPoint at = matter_point(s, m, i);
+    return at.soft > 0 ? yield_von_mises(&m->yield.von_mises, &at) : 0;
+  }
+  return matter_other_factor(s, m, i);
+}
+
+/* matter_yield: limits the deviatoric stress of i; what it gives up is plastic strain, and heat
+ * where the law wants a temperature. At the end of a step, count = 1, these are added up, and heat
+ * [J/kg], what viscosity made in it; else the stress alone is limited. */
+HD void matter_yield(const State *s, long i, int count, double heat)
+{
+  const Material *m = &s->material[s->mat[i]];
+  const int heats = count && material_heats(m);
+  Sym d = passes_stress(&s->s[6 * i]);
+  double j2 = tensor_j2(d), f, strain;
+  if (heats) s->T[i] += heat / m->heat;
+  f = matter_factor(s, m, i);
+  if (f >= 1) return;
+  strain = (1 - f) * sqrt(3 * j2) / (3 * m->mu);
+  if (count) s->strain[i] += strain;
+  if (heats)
+    s->T[i] += m->yield.johnson_cook.heating * f * sqrt(3 * j2) * strain / (s->rho[i] * m->heat);
+  passes_keep_stress(&s->s[6 * i], tensor_scale(d, f));
+}
+
+/* passes_strain: the local scalar strain sigma_max/((1-D) E) (001 eq. 48); the stress is the
+ * damaged one. */
+HD double passes_strain(const State *s, long i)
+{
+  const Material *m = &s->material[s->mat[i]];
+  double left = 1 - s->damage[i], p = s->p[i], largest;
+  if (left <= 0) return 0;
+  largest = left * tensor_largest(passes_stress(&s->s[6 * i])) - (p < 0 ? left * p : p);
+  return largest > 0 ? largest / (left * material_young(m)) : 0;
+}
+
+/* passes_damage: activates flaws and lets cracks grow for dt; keeps the rate of the cube root of D
+ * for the step limit and for rk2. */
+HD void passes_damage(const State *s, long i, double dt)
+{
+  const Material *m = &s->material[s->mat[i]];
+  int active;
+  double cg;
+  s->dcrack[i] = 0;
+  if (m->damage.form == DAMAGE_NONE || s->nflaw[i] == 0 || m->mu <= 0) return;
+  active = damage_active(s->flaw + s->flaw0[i], s->nflaw[i], passes_strain(s, i));
+  if (active == 0) return;
+  if (active > s->nact[i]) s->nact[i] = active;
+  cg = damage_crack_speed(&m->damage.grady_kipp, eos_bulk(&m->eos), m->mu, s->damage[i], s->rho[i]);
+  if (damage_left(s->damage[i], s->nact[i], s->nflaw[i]) > 0) s->dcrack[i] = active * cg / s->h[i];
+  s->damage[i] = damage_grow(s->damage[i], active, s->nact[i], s->nflaw[i], cg, s->h[i], dt);
+}
+
+#endif

@@ -1,0 +1,192 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One particle under a given velocity gradient, through the passes that move it in a run: where
+ * strength ends, plastic strain, heat and temperature against quadratures; tension. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <cmocka.h>
+#include "../lib/material.h"
+#include "../solver/passes.h"
+
+/* A particle of a material; arrays of one row. */
+typedef struct {
+  State s;
+  Material m;
+  Step k;
+} One;
+
+static One *one_new(const char *text, double rho, double u)
+{
+  One *o = calloc(1, sizeof *o);
+  Err err;
+  if (!o || material_parse(&o->m, text, "x.cfg", &err)) fail_msg("%s", err.text);
+#define ONE_NEW(TYPE, MEMBER, WIDTH, ...) o->s.MEMBER = calloc(WIDTH, sizeof(TYPE));
+  ALL_FIELDS(ONE_NEW)
+  MOVED_FIELDS(ONE_NEW)
+  WORK_FIELDS(ONE_NEW)
+#undef ONE_NEW
+  o->s.n = 1, o->s.dimension = 3, o->s.material = &o->m;
+  o->s.rho[0] = rho, o->s.u[0] = u, o->s.h[0] = o->s.m[0] = 1, o->s.T[0] = 298;
+  o->k.strength = o->k.damage = 1;
+  pass_local(&o->s, &o->k, 0);
+  return o;
+}
+
+static void one_free(One *o)
+{
+#define ONE_FREE(TYPE, MEMBER, ...) free(o->s.MEMBER);
+  ALL_FIELDS(ONE_FREE)
+  MOVED_FIELDS(ONE_FREE)
+  WORK_FIELDS(ONE_FREE)
+#undef ONE_FREE
+  free(o);
+}
+
+/* Strained at the gradient g for t in n steps; the energy is that of the work. */
+static void strain(One *o, const double g[9], double t, int n)
+{
+  memcpy(o->s.g, g, 9 * sizeof *g);
+  o->s.divv[0] = g[0] + g[4] + g[8];
+  for (int k = 0; k < n; k++) {
+    o->k.dt = t / n;
+    o->s.rhoa[0] = o->s.rho[0] * exp(-o->s.divv[0] * o->k.dt / 2);
+    pass_advance(&o->s, &o->k, 0);
+    o->s.u[0] = o->s.ue[0];
+  }
+}
+
+static double root_j2(const One *o) { return sqrt(tensor_j2(passes_stress(o->s.s))); }
+
+static void near(double got, double want, double tolerance)
+{
+  if (!(fabs(got - want) <= tolerance * fabs(want))) fail_msg("%.12g, want %.12g", got, want);
+}
+
+#define ROCK(FORM)                                                                                 \
+  "name = \"x\"; eos = { form = \"murnaghan\"; rho0 = 2700.; K = 30e9; n = 1.; };"                 \
+  "strength = { shear_modulus = 20e9; form = " FORM "};"
+
+/* Squeezed along x without giving way to the sides: the stress runs up to the envelope and along
+ * it, at the pressure that the volume alone sets. */
+static void confined(void **state)
+{
+  static const struct {
+    const char *text;
+    double c, slope, limit; /* sqrt(J2) at p: c + slope p, capped as Lundborg has it */
+  } T[] = {
+      {ROCK("\"drucker_prager\"; cohesion = 1e6; friction = 0.5;"), 1.2060882e6, .65888900,
+       INFINITY},
+      {ROCK("\"mohr_coulomb\"; cohesion = 1e6; friction = 0.5;"), 1.2060882e6, .65888900, INFINITY},
+      {ROCK("\"lundborg\"; cohesion = 1e6; friction = 0.7; limit = 1e300;"), 1e6, .7, INFINITY},
+      {ROCK("\"lundborg\"; cohesion = 1e6; friction = 0.7; limit = 1e8;"), 1e6, .7, 1e8},
+      {ROCK("\"collins\"; cohesion = 1e6; friction = 0.7; limit = 1e8; friction_damaged = 0.3;"),
+       1e6, .7, 1e8}};
+  const double g[9] = {-1, 0, 0, 0, 0, 0, 0, 0, 0};
+  (void)state;
+  for (int k = 0; k < 5; k++) {
+    One *o = one_new(T[k].text, 2700, 0);
+    for (int n = 0; n < 10; n++) {
+      strain(o, g, 2e-3, 20);
+      double p = 30e9 * (o->s.rho[0] / 2700 - 1), x = T[k].slope * p, room = T[k].limit - T[k].c;
+      near(o->s.p[0], p, 1e-9);
+      near(root_j2(o), T[k].c + (isinf(room) ? x : x / (1 + x / room)), 1e-6);
+    }
+    assert_true(o->s.strain[0] > 1e-3);
+    one_free(o);
+  }
+}
+
+/* In pure shear at the rate r, s_xy rises with 2 mu (r/2) and stays at Y/sqrt(3); the plastic
+ * strain is what is over, its work and the elastic energy are the heat. */
+static void von_mises(void **state)
+{
+  const double r = 1e3, g[9] = {0, .5 * r, 0, .5 * r, 0, 0, 0, 0, 0}, y = 1e8, t = 2e-5;
+  One *o = one_new(ROCK("\"von_mises\"; Y = 1e8;"), 2700, 0);
+  double elastic = y / sqrt(3) / 20e9; /* r t at the yield point */
+  (void)state;
+  strain(o, g, t, 5000);
+  near(o->s.s[1], y / sqrt(3), 1e-12);
+  near(o->s.strain[0], (r * t - elastic) / sqrt(3), 1e-9);
+  near(o->s.u[0], y / sqrt(3) * (r * t - elastic / 2) / 2700, 1e-3);
+  one_free(o);
+}
+
+/* Steel in adiabatic shear: hardening, then softening by its own heat, dT/de = heating Y/(rho C)
+ * (Johnson & Cook 1983), by quadrature over the plastic strain. */
+static void johnson_cook(void **state)
+{
+  const double r = 1e4, g[9] = {0, r, 0, 0, 0, 0, 0, 0, 0}, heat = 477, rho = 7830, end = 0.5;
+  One *o = one_new("name = \"x\"; eos = { form = \"murnaghan\"; rho0 = 7830.; K = 159e9; n = 1.;"
+                   "heat_capacity = 477.; }; strength = { shear_modulus = 77e9;"
+                   "form = \"johnson_cook\"; A = 792e6; B = 510e6; n = .26; C = .014; m = 1.03;"
+                   "T0 = 298.; Tmelt = 1793.; };",
+                   rho, 0);
+  double T = 298, de = 1e-5, rate = 1 + .014 * log(r / sqrt(3)), flow = 0;
+  (void)state;
+  strain(o, g, end / r, 20000);
+  for (double e = de / 2; e < o->s.strain[0]; e += de) {
+    flow = (792e6 + 510e6 * pow(e, .26)) * rate * (1 - pow((T - 298) / 1495, 1.03));
+    T += .9 * flow * de / (rho * heat);
+  }
+  near(o->s.strain[0], end / sqrt(3), .03);
+  near(sqrt(3) * root_j2(o), flow, 2e-4);
+  near(o->s.T[0], T, 1e-3);
+  assert_true(T > 350);
+  /* what viscosity makes is heat, too; the melt has no strength */
+  o->s.dqdt[0] = 1e10;
+  strain(o, g, 477e3 / 1e10, 1000);
+  assert_true(o->s.T[0] > 1298);
+  strain(o, g, 477e3 / 1e10, 1000);
+  assert_true(root_j2(o) == 0);
+  one_free(o);
+}
+
+/* No tension beyond the envelope's end; vapour bears no shear, elastic matter neither. */
+static void tension_and_vapour(void **state)
+{
+  const double pull[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, shear[9] = {0, 1, 0, 1, 0, 0, 0, 0, 0};
+  One *o = one_new(ROCK("\"drucker_prager\"; cohesion = 1e6; friction = 0.5;"), 2700, 0);
+  (void)state;
+  strain(o, pull, 1e-2, 100);
+  near(o->s.p[0], -1e6 / tan(.5), 1e-12);
+  strain(o, shear, 1e-2, 10);
+  assert_true(root_j2(o) < 1e-3);
+  one_free(o);
+  o = one_new("name = \"x\"; eos = { form = \"tillotson\"; rho0 = 2700.; A = 27e9; B = 27e9; E0 ="
+              "4.87e8; Eiv = 4.72e6; Ecv = 1.82e7; a = .5; b = 1.5; alpha = 5.; beta = 5.; };"
+              "strength = { shear_modulus = 2e10; form = \"none\"; };",
+              2000, 4.7e6);
+  strain(o, shear, 1e-6, 10);
+  assert_true(root_j2(o) > 1e4);
+  o->s.u[0] = 4.8e6;
+  strain(o, shear, 1e-6, 10);
+  assert_true(root_j2(o) == 0);
+  one_free(o);
+}
+
+/* Weak where it is less dense: cohesion alone, below 85 % with (eta/0.85)^4/2. */
+static void weak(void **state)
+{
+  const double pull[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, shear[9] = {0, 1, 0, 1, 0, 0, 0, 0, 0};
+  One *o = one_new(ROCK("\"von_mises\"; Y = 1e6; weak_limit = .85; weak_alpha = .2; weak_beta = 4;"
+                        "weak_gamma = .5;"),
+                   2700, 0);
+  (void)state;
+  strain(o, shear, 1e-3, 10);
+  near(sqrt(3) * root_j2(o), 1e6, 1e-9);
+  strain(o, pull, log(1 / .8) / 3, 10);
+  strain(o, shear, 1e-3, 10);
+  near(sqrt(3) * root_j2(o), .5e6 * pow(.8 / .85, 4), 1e-9);
+  one_free(o);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(confined), cmocka_unit_test(von_mises),
+                                     cmocka_unit_test(johnson_cook),
+                                     cmocka_unit_test(tension_and_vapour), cmocka_unit_test(weak)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
