@@ -40,7 +40,7 @@ void cuda_give(Sim *sim, void **at, size_t bytes)
 static int among(const char *words, const char *name)
 {
   const size_t length = strlen(name);
-  for (const char *at = words; (at = strstr(at, name)); at += length)
+  for (const char *at = words; (at = strstr(at, name)) != NULL; at += length)
     if ((at == words || at[-1] == ' ') && (at[length] == ' ' || !at[length])) return 1;
   return 0;
 }
