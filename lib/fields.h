@@ -30,7 +30,8 @@
   F(double,  T,      1, "Temperature",      "K",        "solver",   "temperature, of materials whose strength depends on it") \
   F(int32_t, nngb,   1, "NeighbourNumber",  "1",        "solver",   "interacting particles, without itself") \
   F(int32_t, frag,   1, "FragmentID",       "1",        "fof",      "fragment, 1 = most massive, 0 = none") \
-  F(int32_t, clump,  1, "ClumpID",          "1",        "clumps",   "bound body, 1 = most massive, 0 = none")
+  F(int32_t, clump,  1, "ClumpID",          "1",        "clumps",   "bound body, 1 = most massive, 0 = none") \
+  F(int32_t, disk,   1, "DiskClass",        "1",        "disk",     "1 body, 2 disk, 3 re-impact, 4 fly-by, 5 escape")
 
 /* What only a checkpoint holds: the derivatives that the next step starts from. */
 #define CHECKPOINT_FIELDS(F) \

@@ -18,13 +18,22 @@
 #define COLUMNS(X) \
   X("x", "m", g->x[0] - s->x[0]) X("y", "m", g->x[1] - s->x[1]) X("z", "m", g->x[2] - s->x[2]) \
   X("vx", "m/s", g->v[0] - s->v[0]) X("vy", "m/s", g->v[1] - s->v[1]) X("vz", "m/s", g->v[2] - s->v[2]) \
+  X("Px", "kg m/s", g->mass * (g->v[0] - s->v[0])) X("Py", "kg m/s", g->mass * (g->v[1] - s->v[1])) \
+  X("Pz", "kg m/s", g->mass * (g->v[2] - s->v[2])) \
   X("radius", "m", g->radius) X("r50", "m", g->r50) X("r90", "m", g->r90) X("r99", "m", g->r99) \
-  X("density", "kg/m^3", g->rho) X("density_max", "kg/m^3", g->rho_max) \
+  X("density", "kg/m^3", g->rho) X("density_mean", "kg/m^3", g->rho_mean) X("density_max", "kg/m^3", g->rho_max) \
   X("b/a", "1", axes(g, 1)) X("c/a", "1", axes(g, 2)) \
   X("omega_x", "rad/s", g->omega[0]) X("omega_y", "rad/s", g->omega[1]) X("omega_z", "rad/s", g->omega[2]) \
   X("period", "s", g->period) X("Lx", "kg m^2/s", g->l[0]) X("Ly", "kg m^2/s", g->l[1]) X("Lz", "kg m^2/s", g->l[2]) \
+  X("Ixx", "kg m^2", g->inertia[0]) X("Ixy", "kg m^2", g->inertia[1]) X("Ixz", "kg m^2", g->inertia[2]) \
+  X("Iyy", "kg m^2", g->inertia[3]) X("Iyz", "kg m^2", g->inertia[4]) X("Izz", "kg m^2", g->inertia[5]) \
+  X("I1", "kg m^2", g->moment[0]) X("I2", "kg m^2", g->moment[1]) X("I3", "kg m^2", g->moment[2]) \
+  X("axis1_x", "1", g->axis[0][0]) X("axis1_y", "1", g->axis[0][1]) X("axis1_z", "1", g->axis[0][2]) \
+  X("axis3_x", "1", g->axis[2][0]) X("axis3_y", "1", g->axis[2][1]) X("axis3_z", "1", g->axis[2][2]) \
+  X("E_bulk", "J", 0.5 * g->mass * pow(group_apart(g->v, s->v), 2)) \
   X("E_kin", "J", g->e_kin) X("E_rot", "J", g->e_rot) X("E_th", "J", g->e_th) X("E_pot", "J", g->e_pot) \
-  X("k_vir", "1", -2 * g->e_kin / g->e_pot) \
+  X("T/W", "1", -g->e_rot / g->e_pot) X("k_vir", "1", -2 * g->e_kin / g->e_pot) \
+  X("peak_p_mean", "Pa", g->peak_mean) X("peak_p_max", "Pa", g->peak_max) \
   X("damage", "1", g->damage) X("damaged", "%", 100 * g->damaged) X("water", "%", 100 * g->water)
 /* clang-format on */
 
@@ -148,18 +157,20 @@ static void centre(Group *g, const Parts *p, const long *list)
 static void contents(Group *g, const Parts *p, const long *list)
 {
   int bodies = g->bodies;
-  double damage = 0, damaged = 0;
+  double damage = 0, damaged = 0, peak = 0;
   for (long k = 0; k < g->n; k++) {
     long i = list[k];
     g->volume += p->m[i] / p->rho[i], g->e_th += p->m[i] * p->u[i];
-    g->rho_max = fmax(g->rho_max, p->rho[i]);
+    g->rho_mean += p->m[i] * p->rho[i], g->rho_max = fmax(g->rho_max, p->rho[i]);
+    if (p->pmax) peak += p->m[i] * p->pmax[i], g->peak_max = fmax(g->peak_max, p->pmax[i]);
     g->part[p->mat[i] * bodies + p->body[i]] += p->m[i];
     if (p->damage) damage += p->m[i] * p->damage[i], damaged += p->damage[i] >= 1 ? p->m[i] : 0;
   }
   for (int c = 0; c < p->materials; c++)
     for (int b = 0; b < bodies && group_is_water(p->material[c].name); b++)
       g->water += g->part[c * bodies + b];
-  g->water /= g->mass, g->rho = g->mass / g->volume;
+  g->water /= g->mass, g->rho = g->mass / g->volume, g->rho_mean /= g->mass;
+  g->peak_mean = p->pmax ? peak / g->mass : NAN, g->peak_max = p->pmax ? g->peak_max : NAN;
   g->radius = cbrt(3 * g->volume / (4 * PI));
   g->damage = p->damage ? damage / g->mass : NAN, g->damaged = p->damage ? damaged / g->mass : NAN;
 }
@@ -325,6 +336,65 @@ GroupPair group_pair(const double xa[3], const double va[3], double ma, const do
   return o;
 }
 
+double group_roche(double mass, double rho) { return 2.4554 * cbrt(3 * mass / (4 * PI * rho)); }
+
+GroupCentre group_centre(const Group *g)
+{
+  GroupCentre c = {.mass = g->mass};
+  memcpy(c.x, g->x, sizeof c.x), memcpy(c.v, g->v, sizeof c.v), memcpy(c.axis, g->l, sizeof c.axis);
+  return c;
+}
+
+GroupCentre group_rest(const Group *s, const Group *g)
+{
+  GroupCentre c = group_centre(s);
+  c.mass = s->mass - g->mass;
+  if (c.mass <= 1e-12 * s->mass) c.mass = 0;
+  for (int a = 0; a < 3 && c.mass > 0; a++) {
+    c.x[a] -= g->mass / c.mass * (g->x[a] - s->x[a]);
+    c.v[a] -= g->mass / c.mass * (g->v[a] - s->v[a]);
+  }
+  return c;
+}
+
+static void cell(FILE *f, double value)
+{
+  if (isnan(value))
+    fputs("\tnan", f); /* not -nan */
+  else
+    fprintf(f, "\t%.9g", value);
+}
+
+void group_orbit_header(FILE *f, const char *about)
+{
+  static const char *const name[] = {"e", "a", "peri", "apo", "incl", "v_inf", "roche"},
+                           *const unit[] = {"1", "m", "m", "m", "deg", "m/s", "m"};
+  for (int k = 0; k < 7; k++) fprintf(f, "\t%s_%s [%s]", name[k], about, unit[k]);
+}
+
+void group_orbit_row(FILE *f, const Group *g, const GroupCentre *c)
+{
+  if (c->mass <= 0 || group_apart(g->x, c->x) <= 0) {
+    for (int k = 0; k < 7; k++) fputs("\tnan", f);
+    return;
+  }
+  const Orbit o = group_pair(c->x, c->v, c->mass, g->x, g->v, g->mass).orbit;
+  double r[3], v[3], up = 0, l2 = 0, axis2 = 0;
+  for (int a = 0; a < 3; a++) r[a] = g->x[a] - c->x[a], v[a] = g->v[a] - c->v[a];
+  for (int a = 0; a < 3; a++) {
+    const int b = (a + 1) % 3, d = (a + 2) % 3;
+    const double l = r[b] * v[d] - r[d] * v[b];
+    up += l * c->axis[a], l2 += l * l, axis2 += c->axis[a] * c->axis[a];
+  }
+  const double lean = up / sqrt(l2 * axis2); /* nan without an axis */
+  fprintf(f, "\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g", o.e, o.mu / o.beta, o.rp, o.ra,
+          180 / PI *
+              acos(lean > 1    ? 1
+                   : lean < -1 ? -1
+                               : lean),
+          o.vinf, group_roche(c->mass, g->rho));
+}
+
 /* b/a and c/a of the ellipsoid with these principal moments: a_k^2 ~ I_1 + I_2 + I_3 - 2 I_k. */
 static double axes(const Group *g, int which)
 {
@@ -346,13 +416,13 @@ void group_header(FILE *f, const Parts *p, int bodies)
 void group_row(FILE *f, const Group *g, const Group *s, const Parts *p)
 {
   int bodies = g->bodies;
-#define CELL(NAME, UNIT, ...) fprintf(f, "\t%.9g", __VA_ARGS__);
+#define CELL(NAME, UNIT, ...) cell(f, __VA_ARGS__);
   COLUMNS(CELL)
 #undef CELL
   for (int c = 0; c < p->materials; c++) {
     double sum = 0;
     for (int b = 0; b < bodies; b++) sum += g->part[c * bodies + b];
-    fprintf(f, "\t%.9g", 100 * sum / g->mass);
+    cell(f, 100 * sum / g->mass);
   }
   for (int b = 0; b < bodies; b++) {
     double sum = 0;

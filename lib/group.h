@@ -12,8 +12,12 @@
 
 typedef struct {
   long n;
-  double mass, x[3], v[3];     /* kg; centre of mass m, m/s */
-  double volume, rho, rho_max; /* sum m/rho m^3; mass/volume, largest kg/m^3 */
+  double mass, x[3], v[3];               /* kg; centre of mass m, m/s */
+  double volume, rho, rho_mean, rho_max; /* sum m/rho m^3; mass/volume, mean over mass, largest
+                                            kg/m^3 */
+  double peak_mean,
+      peak_max; /* largest pressure so far: mean over mass, largest Pa; NAN without the
+                                 field */
   double radius, r50, r90,
       r99; /* of the sphere of this volume; around the centre with 50, 90, 99 % of the mass, m */
   double l[3];                  /* angular momentum about the own centre, kg m^2/s */
@@ -36,10 +40,16 @@ typedef struct {
   Orbit orbit;
 } GroupPair;
 
+/* What a group moves about, as a point: m, m/s, kg; the direction that inclinations refer to. */
+typedef struct {
+  double x[3], v[3], mass, axis[3];
+} GroupCentre;
+
 enum { GROUP_BODIES = 1024 };
 
-/* GROUP_FIELDS: what group_measure needs. */
+/* GROUP_FIELDS: what group_measure needs; GROUP_MORE: what it shows when it is there. */
 #define GROUP_FIELDS "id x v m rho u h mat body"
+#define GROUP_MORE   " damage pmax"
 
 /* group_named: the particles that "body:0", "fragment:2" or "clump:1" means: those with
  * (*id)[i] == *which. Errors: another word, no number, the field is missing in `file`, none of them
@@ -83,6 +93,16 @@ double group_apart(const double a[3], const double b[3]);
 GroupPair group_pair(const double xa[3], const double va[3], double ma, const double xb[3],
                      const double vb[3], double mb);
 
+/* group_centre: a group, and its own spin. group_rest: the whole system without the group, and the
+ * system's angular momentum. */
+GroupCentre group_centre(const Group *g);
+GroupCentre group_rest(const Group *system, const Group *g);
+
+/* group_roche: Roche limit 2.4554 (3 M/(4 pi rho))^(1/3) [m] of a fluid satellite of density rho
+ * [kg/m^3] about a mass [kg]: 2.4554 R (rho_M/rho)^(1/3). Source: Chandrasekhar (1969), Ellipsoidal
+ * Figures of Equilibrium. */
+double group_roche(double mass, double rho);
+
 /* group_bodies: 1 + the largest BodyID, which must lie in 0..GROUP_BODIES-1; else -1. */
 int group_bodies(const Parts *p, Err *err);
 
@@ -93,5 +113,11 @@ int group_is_water(const char *material);
  * and velocities relative to `system`. `name [unit]` is the name of a column. */
 void group_header(FILE *f, const Parts *p, int bodies);
 void group_row(FILE *f, const Group *g, const Group *system, const Parts *p);
+
+/* group_orbit_header, group_orbit_row: the same for the two-body orbit of g about c, `about` at the
+ * end of the names: e, a (< 0 unbound), peri, apo, incl deg, v_inf, roche; nan where c has no mass,
+ * as of a group without a rest. */
+void group_orbit_header(FILE *f, const char *about);
+void group_orbit_row(FILE *f, const Group *g, const GroupCentre *c);
 
 #endif

@@ -22,7 +22,7 @@ enum { N = 4000 };
 static Parts *cloud(void)
 {
   Parts *p = part_new(N);
-  assert_int_equal(part_add(p, "id x v m rho u h mat body damage", NULL), 0);
+  assert_int_equal(part_add(p, "id x v m rho u h mat body damage pmax", NULL), 0);
   assert_int_equal(part_add_material(p, "basalt", "x", NULL), 0);
   assert_int_equal(part_add_material(p, "porous_ice", "y", NULL), 1);
   for (long i = 0; i < N; i++) {
@@ -198,6 +198,35 @@ static void two_bodies(void **state)
   const double d[3] = {29801e3 + 31113e3, 0, 0}; /* 001 sect. 5.2, table 3: F1 and F2, 64 m/s */
   o = group_pair(zero, zero, 9.55e20, d, v, 9.17e20);
   CLOSE(o.v_esc, 64, 0.5);
+}
+
+/* A circle of radius r whose pole leans by 60 degrees to z, at an odd place; the rest of the system
+ * is the other body; alone there is nothing to go about. */
+static void orbits(void **state)
+{
+  (void)state;
+  const double M = 6e24, m = 7e22, r = 4e8, v = sqrt(UNIT_G * (M + m) / r);
+  Group a = {.mass = M, .x = {1e9, 0, 0}, .v = {500, 0, 0}, .l = {0, 0, 2}, .rho = 5500};
+  Group b = {.mass = m, .x = {1e9 + r, 0, 0}, .v = {500, v * 0.5, v * sqrt(0.75)}, .rho = 3344};
+  Group all = {.mass = M + m, .l = {0, 0, 1}};
+  for (int k = 0; k < 3; k++) {
+    all.x[k] = (M * a.x[k] + m * b.x[k]) / (M + m), all.v[k] = (M * a.v[k] + m * b.v[k]) / (M + m);
+  }
+  const GroupCentre c[3] = {group_centre(&a), group_rest(&all, &b), group_rest(&all, &all)};
+  for (int k = 0; k < 3; k++) {
+    char *text = NULL;
+    size_t size;
+    double e, s, q, big, incl, inf, roche;
+    FILE *f = open_memstream(&text, &size);
+    group_orbit_row(f, &b, &c[k]), fclose(f);
+    assert_int_equal(
+        sscanf(text, "%lf %lf %lf %lf %lf %lf %lf", &e, &s, &q, &big, &incl, &inf, &roche), 7);
+    free(text);
+    assert_true(isnan(inf) && isnan(e) == (k == 2) && isnan(roche) == (k == 2));
+    if (k == 2) continue;
+    CLOSE(e, 0, 1e-7), CLOSE(s / r, 1, 1e-7), CLOSE(q / r, 1, 1e-7), CLOSE(big / r, 1, 1e-7);
+    CLOSE(incl, 60, 1e-6), CLOSE(roche / 1.85e7, 1, 0.01);
+  }
 }
 
 /* As many cells in a row as names in the header, all of one line. */

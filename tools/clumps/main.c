@@ -124,6 +124,7 @@ static void print(const Parts *p, const char *file, const Body *b, long n, long 
   printf("# id\tn\tmass [kg]\tr [m]\tv [m/s]\tbound [kg]\tbound_u [kg]\tbound_h "
          "[kg]\taggregate\tparent\tdistance [m]"
          "\tv_rel [m/s]\tv_rel/v_esc [1]\tpericentre [m]");
+  group_orbit_header(stdout, "system"), group_orbit_header(stdout, "1");
   group_header(stdout, p, s->bodies);
   printf("\n");
   for (long k = 0; k < n; k++) {
@@ -137,6 +138,8 @@ static void print(const Parts *p, const char *file, const Body *b, long n, long 
       printf("\t%.9g\t%.9g\t%.9g\t%.9g", o->r, o->v, o->v / o->v_esc, o->orbit.rp);
     else
       printf("\tnan\tnan\tnan\tnan");
+    const GroupCentre rest = group_rest(s, g), first = group_centre(&b[0].g);
+    group_orbit_row(stdout, g, &rest), group_orbit_row(stdout, g, &first);
     group_row(stdout, g, s, p);
     printf("\n");
   }
@@ -159,7 +162,7 @@ int main(int argc, char **argv)
   if (arg.least < 2) err_usage("--min-particles must be at least 2");
   if (!(arg.theta >= 0 && arg.theta <= 1)) err_usage("--theta must lie in 0..1");
   if (arg.out && !strcmp(arg.out, "-")) err_usage("--output: stdout holds the table: name a file");
-  Parts *p = snap_read_some(file, arg.out ? NULL : GROUP_FIELDS " p damage", &err);
+  Parts *p = snap_read_some(file, arg.out ? NULL : GROUP_FIELDS GROUP_MORE " p", &err);
   if (!p || part_need(p, GROUP_FIELDS, file, &err) || part_check(p, file, &err))
     err_die("%s", err.text);
   ClumpOptions o = {!strcmp(arg.method, "grow"), level(), arg.link, arg.theta, arg.least};

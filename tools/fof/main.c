@@ -4,25 +4,26 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include "lib/choose.h"
 #include "lib/fof.h"
 #include "lib/group.h"
-#include "lib/material.h"
 #include "lib/opt.h"
 #include "lib/snap.h"
 #include "lib/unit.h"
 
 static struct {
   double link, damage, survivors, theta;
-  const char *density, *out;
-  OptList ignore;
+  const char *out;
+  OptList density, ignore;
   long least;
 } arg = {.damage = INFINITY};
 
 static const Opt opts[] = {
     {"link", 'l', OPT_REAL, "1", "1", "friends when r_ij < link (h_i + h_j)/2, h the full support",
      &arg.link},
-    {"min-density", 'd', OPT_TEXT, NULL, "DENSITY",
-     "leave out lighter particles: 700, 0.7g/cc, or 0.75rho0 of each material", &arg.density},
+    {"min-density", 'd', OPT_LIST, NULL, "DENSITY",
+     "leave out lighter particles: 700, 0.7g/cc, 0.75rho0 of each material; of one: ice:500",
+     &arg.density},
     {"max-damage", 'D', OPT_REAL, NULL, "1",
      "leave out particles with at least this damage (1: fully damaged)", &arg.damage},
     {"ignore", 'i', OPT_LIST, NULL, "MATERIAL", "leave out a material", &arg.ignore},
@@ -62,53 +63,23 @@ typedef struct {
   double r, mass;
 } Shell; /* a fragment of any size, for M_r */
 
-/* Lowest density a particle of each material may have, [materials]. */
-static double *density_limits(const Parts *p, Err *err)
-{
-  double *limit = calloc((size_t)p->materials + 1, sizeof *limit), number;
-  const char *suffix;
-  if (!limit || !arg.density) return limit ? limit : err_null(err, "out of memory");
-  if (unit_suffix(arg.density, &number, &suffix, err)) goto failed;
-  int relative = !strcmp(suffix, "rho0");
-  if (!relative && unit_parse(arg.density, "kg/m^3", &number, err)) goto failed;
-  Material *material = relative ? material_load(p, err) : NULL;
-  if (relative && !material) goto failed;
-  for (int c = 0; c < p->materials; c++)
-    limit[c] = number * (relative ? eos_rho0(&material[c].eos) : 1);
-  free(material);
-  return limit;
-failed:
-  free(limit);
-  return NULL;
-}
-
 /* Marks the materials left out, [materials]. */
 static unsigned char *ignored(const Parts *p, Err *err)
 {
   unsigned char *skip = calloc((size_t)p->materials + 1, 1);
-  const char **names = calloc((size_t)p->materials + 1, sizeof *names);
-  if (!skip || !names) err_die("out of memory");
-  for (int c = 0; c < p->materials; c++) names[c] = p->material[c].name;
+  if (!skip) err_die("out of memory");
   for (int k = 0; k < arg.ignore.n; k++) {
-    const char *word = arg.ignore.text[k], *near = unit_nearest(word, names, p->materials);
-    int c = 0;
-    while (c < p->materials && strcmp(names[c], word)) c++;
-    if (c < p->materials) {
-      skip[c] = 1;
-      continue;
-    }
-    err_set(err, "--ignore: no material '%s' in this file%s%s%s", word,
-            near ? " (did you mean '" : "", near ? near : "", near ? "'?)" : "");
-    free(skip), free(names);
-    return NULL;
+    Err why;
+    const int c = choose_material(p, arg.ignore.text[k], &why);
+    if (c < 0) return free(skip), err_null(err, "--ignore: %s", why.text);
+    skip[c] = 1;
   }
-  free(names);
   return skip;
 }
 
 static unsigned char *choose(const Parts *p, Err *err)
 {
-  double *limit = density_limits(p, err);
+  double *limit = choose_densities(p, &arg.density, err);
   unsigned char *skip = limit ? ignored(p, err) : NULL,
                 *keep = skip ? malloc((size_t)p->n + 1) : NULL;
   for (long i = 0; i < p->n && keep; i++)
@@ -218,6 +189,7 @@ static void print(const Parts *p, const char *file, const Fragment *f, long n, l
   printf("\n# id\tn\tmass [kg]\tr [m]\tv [m/s]\tv_esc [m/s]\tfate\tnear\tdistance [m]\tv_rel "
          "[m/s]\tv_rel/v_esc [1]"
          "\tpericentre [m]");
+  group_orbit_header(stdout, "system"), group_orbit_header(stdout, "1");
   group_header(stdout, p, s->bodies);
   printf("\n");
   for (long k = 0; k < n; k++) {
@@ -228,6 +200,8 @@ static void print(const Parts *p, const char *file, const Fragment *f, long n, l
       printf("\t%.9g\t%.9g\t%.9g\t%.9g", o->r, o->v, o->v / o->v_esc, o->orbit.rp);
     else
       printf("\tnan\tnan\tnan\tnan");
+    const GroupCentre rest = group_rest(s, &f[k].g), first = group_centre(&f[0].g);
+    group_orbit_row(stdout, &f[k].g, &rest), group_orbit_row(stdout, &f[k].g, &first);
     group_row(stdout, &f[k].g, s, p);
     printf("\n");
   }
@@ -249,7 +223,7 @@ int main(int argc, char **argv)
   char **input = opt_parse(&program, argc, argv, &inputs);
   const char *file = inputs ? input[0] : "-";
   check_arguments();
-  Parts *p = snap_read_some(file, arg.out ? NULL : GROUP_FIELDS " damage", &err);
+  Parts *p = snap_read_some(file, arg.out ? NULL : GROUP_FIELDS GROUP_MORE, &err);
   if (!p || part_need(p, GROUP_FIELDS, file, &err) || part_check(p, file, &err))
     err_die("%s", err.text);
   if (arg.damage < INFINITY && part_need(p, "damage", file, &err)) err_die("%s", err.text);
