@@ -115,6 +115,10 @@ static int consistent(const config_setting_t *root, const Material *m, const cha
   if (m->yield.form == YIELD_COLLINS && m->yield.collins.limit < m->yield.collins.cohesion)
     return cfg_where(err, config_setting_get_member(strength, "limit"), label,
                      "'limit' must not be below 'cohesion'");
+  if (m->yield.form == YIELD_COLLINS && m->damage.form != DAMAGE_NONE &&
+      m->damage.grady_kipp.shear > 0)
+    return cfg_where(err, damage, label,
+                     "collins has a strength for damaged rock of its own: 'shear' must be 0");
   if (m->damage.form != DAMAGE_NONE && m->mu <= 0)
     return cfg_where(err, damage, label, "'damage' needs a 'shear_modulus' above 0 in 'strength'");
   return 0;

@@ -27,7 +27,8 @@ typedef enum {
 #define DAMAGE_GRADY_KIPP_ROWS(X) \
   X(k,     "1/m^3", NULL,  1e-300, 1e300, "Weibull k: k e^m flaws a volume fail below strain e") \
   X(m,     "1",     NULL,  1,      100,   "Weibull m") \
-  X(crack, "1",     "0.4", 0,      1,     "crack speed in units of the longitudinal wave speed")
+  X(crack, "1",     "0.4", 0,      1,     "crack speed in units of the longitudinal wave speed") \
+  X(shear, "1",     "1",   0,      1,     "part of the damage that acts on the deviatoric stress; 0: on tension alone")
 /* clang-format on */
 
 struct damage_grady_kipp {
@@ -40,6 +41,12 @@ typedef struct {
   int form; /* DamageForm */
   struct damage_grady_kipp grady_kipp;
 } Damage;
+
+/* damage_shear: what damage leaves of the deviatoric stress; of tension it leaves 1 - D. */
+HD double damage_shear(const Damage *d, double damage)
+{
+  return 1 - (d->form == DAMAGE_NONE ? damage : d->grady_kipp.shear * damage);
+}
 
 /* damage_active: how many of the n thresholds flaw[n] (ascending strains) lie below strain e. */
 HD int damage_active(const double *flaw, int n, double e)
@@ -73,7 +80,7 @@ HD double damage_left(double damage, int ever, int ntot)
 /* damage_grow: D after dt [s] with nact of ntot flaws active now and `ever` so far. D^(1/3) grows
  * at nact cg/rs (001 eq. 46), rs [m] the radius of the volume that a flaw has to cross: h, the
  * kernel's support, as in miluphcuda. D <= ever/ntot (001 eq. 47: the limit is one of D, not of
- * D^(1/3)). Never shrinks. */
+ * D^(1/3)). Exact while nact and cg are constant, for any dt. Never shrinks. */
 HD double damage_grow(double damage, int nact, int ever, int ntot, double cg, double rs, double dt)
 {
   double d = cbrt(damage) + nact * cg / rs * dt, limit = ntot > 0 ? (double)ever / ntot : 0;

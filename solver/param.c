@@ -66,7 +66,6 @@ static const CfgRow step[] = {
   {"cfl", CFG_REAL, AT(cfl), "1", "0.4", 1e-6, 2, "of h over the largest signal velocity c_i + c_j - 3 v_ij.r_ij/r"},
   {"acceleration", CFG_REAL, AT(step_acceleration), "1", "0.25", 1e-6, 2, "of sqrt(h/a)"},
   {"density", CFG_REAL, AT(step_density), "1", "0.3", 1e-6, 10, "of 1/|div v|"},
-  {"damage", CFG_REAL, AT(step_damage), "1", "0.4", 1e-6, 10, "largest growth of the cube root of damage in a step"},
   {"error", CFG_REAL, AT(step_error), "1", "1e-4", 1e-15, 1, "tolerance of rk2-adaptive"},
   {"min", CFG_REAL, AT(step_min), "s", "1e-30", 0, 1e300, "a step below this stops the run"},
   {"max", CFG_REAL, AT(step_max), "s", "0", 0, 1e300, "largest step; 0: no such limit"},

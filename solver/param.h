@@ -22,7 +22,7 @@ typedef struct {
   double alpha, beta;
   int smoothing;
   double neighbours, h_min, h_max;
-  double cfl, step_acceleration, step_density, step_damage, step_error, step_min, step_max;
+  double cfl, step_acceleration, step_density, step_error, step_min, step_max;
   double damping;
   int damping_radial;
   int log_every;

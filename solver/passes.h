@@ -15,9 +15,9 @@ typedef struct {
   double dt;                                        /* s */
   int density, energy, smoothing, strength, damage; /* modes, see param.h */
   double neighbours, h_min, h_max, density_floor, energy_floor;
-  double self;                                         /* sigma w(0): the kernel's centre */
-  double cfl, acceleration, step_density, step_damage; /* factors of the limits */
-  double damping;                                      /* 1/s; 0: none */
+  double self;                            /* sigma w(0): the kernel's centre */
+  double cfl, acceleration, step_density; /* factors of the limits */
+  double damping;                         /* 1/s; 0: none */
   int damping_radial;
   double centre[BODIES][3], velocity[BODIES][3],
       omega[BODIES][3]; /* frames that are damped towards */
@@ -28,7 +28,7 @@ typedef struct {
 
 /* Why a step is as short as it is; what conserved.tsv and the log name. */
 /* clang-format off */
-#define LIMIT_NAMES(L) L(CFL, "cfl") L(ACCELERATION, "acceleration") L(DENSITY, "density") L(DAMAGE, "damage")
+#define LIMIT_NAMES(L) L(CFL, "cfl") L(ACCELERATION, "acceleration") L(DENSITY, "density")
 /* clang-format on */
 enum {
 #define LIMIT_ENUM(CAPITAL, NAME) LIMIT_##CAPITAL,
@@ -95,13 +95,15 @@ HD Sym passes_elastic(Sym s, const double *g, double mu, double dt)
   return passes_rotate(tensor_axpy(passes_rotate(s, g, 0.5 * dt), 2 * mu * dt, e), g, 0.5 * dt);
 }
 
-/* passes_work: (-p div v + S:e)/rho [W/kg] with the stress as damage leaves it (001 eq. 5, 20, 21).
- */
-HD double passes_work(double p, Sym s, double damage, double div, const double *g, double rho,
-                      int solid)
+/* passes_work: (-p div v + S:e)/rho [W/kg] of i with p and S as damage leaves them (001 eq. 5, 20,
+ * 21). */
+HD double passes_work(const State *s, long i, double p, Sym dev, double rho, int solid)
 {
-  double left = 1 - damage, w = -(p < 0 ? left * p : p) * div;
-  if (solid) w += left * tensor_dot(s, passes_strain_rate(g));
+  const double *g = &s->g[9 * i], damage = s->damage[i];
+  double w = -(p < 0 ? (1 - damage) * p : p) * s->divv[i];
+  if (solid)
+    w += damage_shear(&s->material[s->mat[i]].damage, damage) *
+         tensor_dot(dev, passes_strain_rate(g));
   return w / rho;
 }
 
@@ -111,9 +113,10 @@ HD double passes_work(double p, Sym s, double damage, double div, const double *
  * exerts no torque on a neighbourhood (Bonet & Lok 1999, CMAME 180, 97). */
 HD void passes_pack(const State *s, const Step *k, long i, int solid, double dt)
 {
-  double left = 1 - s->damage[i], p = s->p[i], *t = &s->t[9 * i];
+  double left = damage_shear(&s->material[s->mat[i]].damage, s->damage[i]), *t = &s->t[9 * i];
   double size = k->density == 2 ? s->m[i] / s->rho[i] : 1 / s->rho[i]; /* 2: miscible */
-  s->push[i] = (p < 0 ? left * p : p) * size * size;
+  double p = s->p[i] < 0 ? (1 - s->damage[i]) * s->p[i] : s->p[i];
+  s->push[i] = p * size * size;
   for (int d = 0; d < 9 && !solid && s->t; d++) t[d] = 0;
   if (solid) {
     Sym c = passes_rotate(passes_stress(&s->cm[6 * i]), &s->g[9 * i], dt);
@@ -211,9 +214,9 @@ HD void pass_advance(const State *s, const Step *k, long i)
     matter_eos(s, i, u, k->strength);
   } else {
     solid = solid && k->energy == 0;
-    work = passes_work(p, mid, s->damage[i], s->divv[i], g, s->rhoa[i], solid);
+    work = passes_work(s, i, p, mid, s->rhoa[i], solid);
     matter_eos(s, i, u + k->dt * (work + heat), k->strength);
-    work = passes_work(0.5 * (p + s->p[i]), mid, s->damage[i], s->divv[i], g, s->rhoa[i], solid);
+    work = passes_work(s, i, 0.5 * (p + s->p[i]), mid, s->rhoa[i], solid);
     matter_eos(s, i, u + k->dt * (work + heat), k->strength);
   }
   if (mu > 0) matter_yield(s, i, 1, k->dt * heat);
@@ -256,8 +259,8 @@ HD void pass_finish(const State *s, const Step *k, long i)
   if (k->energy == 1) s->u[i] = s->ue[i];
   if (s->u[i] < k->energy_floor) s->u[i] = k->energy_floor;
   s->dudt[i] = s->du[i];
-  s->dqdt[i] = s->du[i] - passes_work(s->p[i], passes_own_stress(s, i, mu > 0), s->damage[i],
-                                      s->divv[i], &s->g[9 * i], s->rho[i], mu > 0);
+  s->dqdt[i] =
+      s->du[i] - passes_work(s, i, s->p[i], passes_own_stress(s, i, mu > 0), s->rho[i], mu > 0);
   if (s->p[i] > s->pmax[i]) s->pmax[i] = s->p[i];
   if (k->smoothing && k->dt > 0)
     s->h[i] = passes_follow(s, k, i, s->ha[i] * s->ha[i] / s->h[i], k->dt);
@@ -385,10 +388,6 @@ HD void pass_limits(const State *s, const Step *k, long i, double *dt)
   dt[LIMIT_CFL] = k->cfl * s->h[i] / s->signal[i];
   dt[LIMIT_ACCELERATION] = pull > 0 ? k->acceleration * sqrt(s->h[i] / pull) : INFINITY;
   dt[LIMIT_DENSITY] = s->divv[i] != 0 ? k->step_density / fabs(s->divv[i]) : INFINITY;
-  dt[LIMIT_DAMAGE] = INFINITY;
-  if (k->damage && s->dcrack[i] > 0 &&
-      damage_left(s->damage[i], s->nact[i], s->nflaw[i]) > k->step_damage)
-    dt[LIMIT_DAMAGE] = k->step_damage / s->dcrack[i];
 }
 
 /* pass_bad: whether the state of i makes no sense any more, and why. */

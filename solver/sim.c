@@ -27,7 +27,7 @@ Step sim_step(const Sim *sim, double dt)
   k.density_floor = p->density_floor, k.energy_floor = p->energy_floor;
   k.self = kernel_sigma(p->kernel, sim->s.dimension) * kernel_w(p->kernel, sim->s.dimension, 0);
   k.cfl = p->cfl, k.acceleration = p->step_acceleration;
-  k.step_density = p->step_density, k.step_damage = p->step_damage;
+  k.step_density = p->step_density;
   k.damping = p->damping, k.damping_radial = p->damping_radial;
   return k;
 }

@@ -118,6 +118,9 @@ static void mistakes(void **state)
       {"name = \"x\";\n" EOS "strength = { form = \"collins\"; shear_modulus = 1; cohesion = 2;"
        "friction = 1;\nlimit = 1; friction_damaged = 1; };",
        "x.cfg:4: 'limit' must not be below 'cohesion'"},
+      {"name = \"x\";\n" EOS "strength = { form = \"collins\"; shear_modulus = 1; cohesion = 2;"
+       "friction = 1; limit = 3; friction_damaged = 1; };\n" DAMAGE,
+       "x.cfg:4: collins has a strength for damaged rock of its own: 'shear' must be 0"},
       {"name = \"x\";\n" EOS DAMAGE, "x.cfg:3: 'damage' needs a 'shear_modulus'"},
       {"name = \"x\";\neos = { form = \"ideal\"; gamma = 1.4; };\n" SOLID, "x.cfg:3: a gas has no"},
       {"name = \"x\";\n" EOS SOLID "damage = { form = \"grady_kipp\"; k = 1; m = 16; crack = 3; };",

@@ -5,6 +5,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <cmocka.h>
@@ -183,10 +184,79 @@ static void weak(void **state)
   one_free(o);
 }
 
+static const double FLAWS[] = {1e-4, 2e-4, 3e-4, 4e-4};
+
+static One *brittle(const char *shear)
+{
+  char text[512];
+  One *o;
+  snprintf(text, sizeof text,
+           "%sdamage = { form = \"grady_kipp\"; k = 1e30; m = 8.; shear = %s; };",
+           ROCK("\"none\";"), shear);
+  o = one_new(text, 2700, 0);
+  o->s.nflaw[0] = 4, o->s.flaw = FLAWS;
+  return o;
+}
+
+/* Pulled along x to a strain e and let go: flaws open at their thresholds, and stay counted; D
+ * grows by nact c_g/h to nact/4, in any number of steps. */
+static void cracks(void **state)
+{
+  const double g[9] = {1, 0, 0, 0, 0, 0, 0, 0, 0}, back[9] = {-1}, still[9] = {0};
+  const double young = 9 * 30e9 * 20e9 / (3 * 30e9 + 20e9), modulus = 30e9 + 80e9 / 3;
+  double few = 0;
+  (void)state;
+  for (int steps = 1; steps < 200; steps *= 14) {
+    One *o = brittle("1.");
+    o->k.damage = 0;
+    strain(o, g, 2.5e-4 * young / modulus, 1000); /* sigma_xx/E = 2.5e-4 */
+    near(passes_strain(&o->s, 0), 2.5e-4, 1e-3);
+    o->k.damage = 1;
+    strain(o, still, 2e-4, steps);
+    assert_int_equal(o->s.nact[0], 2);
+    if (steps == 1) few = o->s.damage[0];
+    near(o->s.damage[0], few, 4e-2);
+    near(cbrt(o->s.damage[0]), 2e-4 * 2 * .4 * sqrt(modulus / 2700), 4e-2); /* slower as D grows */
+    near(o->s.push[0], (1 - o->s.damage[0]) * o->s.p[0] / (o->s.rho[0] * o->s.rho[0]), 1e-14);
+    strain(o, still, 1, 1);
+    near(o->s.damage[0], .5, 1e-14);
+    near(passes_strain(&o->s, 0), 2.5e-4, 1e-3); /* the strain that flaws feel does not know D */
+    strain(o, back, 5e-4, 10);
+    assert_int_equal(o->s.nact[0], 2);
+    near(o->s.damage[0], .5, 1e-14);
+    one_free(o);
+  }
+}
+
+/* What the force loop sees of S: (1 - shear D) of it, and of the work; p is not touched by damage
+ * where it presses. */
+static void acts_on(void **state)
+{
+  static const char *const T[] = {"1.", "0.25", "0."};
+  const double left[] = {.2, .8, 1}, e[9] = {0, .5, 0, .5, 0, 0, 0, 0, 0};
+  (void)state;
+  for (int k = 0; k < 3; k++) {
+    One *o = brittle(T[k]);
+    o->s.damage[0] = .8, o->s.nact[0] = 4, o->s.s[1] = 1e7, o->s.rho[0] = 2710;
+    o->s.cm[0] = o->s.cm[3] = o->s.cm[5] = 1;
+    pass_local(&o->s, &o->k, 0);
+    near(o->s.t[1], left[k] * 1e7, 1e-14);
+    near(o->s.push[0], o->s.p[0] / 2710 / 2710, 1e-14);
+    memcpy(o->s.g, e, sizeof e);
+    near(passes_work(&o->s, 0, 0, passes_stress(o->s.s), 2710, 1), left[k] * 1e7 / 2710, 1e-14);
+    o->s.p[0] = -1e6;
+    near(passes_strain(&o->s, 0) * left[k] * material_young(&o->m), left[k] * 1e7 + .2 * 1e6,
+         1e-12);
+    one_free(o);
+  }
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(confined), cmocka_unit_test(von_mises),
-                                     cmocka_unit_test(johnson_cook),
-                                     cmocka_unit_test(tension_and_vapour), cmocka_unit_test(weak)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(confined),     cmocka_unit_test(von_mises),
+      cmocka_unit_test(johnson_cook), cmocka_unit_test(tension_and_vapour),
+      cmocka_unit_test(weak),         cmocka_unit_test(cracks),
+      cmocka_unit_test(acts_on)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
