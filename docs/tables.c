@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Prints the tables of docs/ that live in headers: `tables schema` the particle fields, `tables laws` the parameters of the
- * material laws. Compiled and run by docs/generate. */
+ * material laws, `tables tables` the fields of tables of equations of state. Compiled and run by docs/generate. */
 #include <stdio.h>
 #include <string.h>
 #include "../lib/fields.h"
+#include "../lib/table.h"
 #include "../physics/material.h"
 
 #define FIELD(TYPE, MEMBER, WIDTH, DATASET, UNIT, MADE_BY, MEANING)                                \
   field(DATASET, WIDTH, #TYPE, UNIT, MADE_BY, MEANING);
 #define ROW(MEMBER, UNIT, VALUE, MIN, MAX, MEANING) row(#MEMBER, UNIT, VALUE, MIN, MAX, MEANING);
-#define OWN_ROW(KEY, MEMBER, UNIT, VALUE, MIN, MAX, MEANING)                                  \
+#define OWN_ROW(KEY, MEMBER, UNIT, VALUE, MIN, MAX, MEANING)                                       \
   row(#KEY, UNIT, VALUE, MIN, MAX, MEANING);
-#define EOS_TABLE(CAPITAL, NAME)    law("eos", #NAME), EOS_##CAPITAL##_ROWS(ROW);
-#define YIELD_TABLE(CAPITAL, NAME)  law("strength", #NAME), YIELD_##CAPITAL##_ROWS(ROW);
-#define DAMAGE_TABLE(CAPITAL, NAME) law("damage", #NAME), DAMAGE_##CAPITAL##_ROWS(ROW);
+#define EOS_ROW_TABLE(CAPITAL, NAME)    law("eos", #NAME), EOS_##CAPITAL##_ROWS(ROW);
+#define YIELD_ROW_TABLE(CAPITAL, NAME)  law("strength", #NAME), YIELD_##CAPITAL##_ROWS(ROW);
+#define DAMAGE_ROW_TABLE(CAPITAL, NAME) law("damage", #NAME), DAMAGE_##CAPITAL##_ROWS(ROW);
 
 static void field(const char *dataset, int width, const char *type, const char *unit,
                   const char *made_by, const char *meaning)
@@ -54,23 +55,32 @@ static void schema(void)
   CHECKPOINT_FIELDS(FIELD)
 }
 
+#define TABLE_ROW(CAPITAL, NAME, UNIT, MEANING) printf("| `%s` | %s | %s |\n", #NAME, UNIT, MEANING);
+static void tables(void)
+{
+  printf("| dataset | unit | meaning |\n|---|---|---|\n");
+  TABLE_FIELDS(TABLE_ROW)
+}
+
 static void laws(void)
 {
-  EOS_LAWS(EOS_TABLE)
+  EOS_LAWS(EOS_ROW_TABLE)
   printf("\n### eos: with every law\n");
   table();
   MATERIAL_EOS_ROWS(OWN_ROW)
   printf("\n### strength: with every law\n");
   table();
   MATERIAL_STRENGTH_ROWS(OWN_ROW)
-  YIELD_LAWS(YIELD_TABLE)
-  DAMAGE_LAWS(DAMAGE_TABLE)
+  YIELD_LAWS(YIELD_ROW_TABLE)
+  DAMAGE_LAWS(DAMAGE_ROW_TABLE)
 }
 
 int main(int argc, char **argv)
 {
   if (argc == 2 && !strcmp(argv[1], "schema"))
     schema();
+  else if (argc == 2 && !strcmp(argv[1], "tables"))
+    tables();
   else if (argc == 2 && !strcmp(argv[1], "laws"))
     laws();
   else

@@ -44,7 +44,7 @@ static int one_word(const Parts *p, const char *word, double *limit, Err *err)
   if (relative && !material) return -1;
   for (int c = 0; c < p->materials; c++)
     if (only < 0 || only == c) limit[c] = number * (relative ? eos_rho0(&material[c].eos) : 1);
-  free(material);
+  material_free(material, p->materials);
   return 0;
 }
 

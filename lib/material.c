@@ -9,6 +9,8 @@
 #include <unistd.h>
 #include "cfg.h"
 #include "material.h"
+#include "spool.h"
+#include "tabfile.h"
 #include "unit.h"
 
 enum { MAX_ROWS = 32, MAX_PATH = 4096 };
@@ -22,19 +24,19 @@ typedef struct {
 #define ROW(MEMBER, UNIT, VALUE, MIN, MAX, MEANING)                                                \
   {#MEMBER, CFG_REAL, 0, UNIT, VALUE, MIN, MAX, MEANING},
 
-#define EOS_TABLE(CAPITAL, NAME)                                                                   \
+#define EOS_ROW_TABLE(CAPITAL, NAME)                                                               \
   static const CfgRow eos_rows_##NAME[] = {EOS_##CAPITAL##_ROWS(ROW)};
 #define EOS_ENTRY(CAPITAL, NAME) {eos_rows_##NAME, N(eos_rows_##NAME)},
-#define YIELD_TABLE(CAPITAL, NAME)                                                                 \
+#define YIELD_ROW_TABLE(CAPITAL, NAME)                                                             \
   static const CfgRow yield_rows_##NAME[] = {YIELD_##CAPITAL##_ROWS(ROW)};
 #define YIELD_ENTRY(CAPITAL, NAME) {yield_rows_##NAME, N(yield_rows_##NAME)},
-#define DAMAGE_TABLE(CAPITAL, NAME)                                                                \
+#define DAMAGE_ROW_TABLE(CAPITAL, NAME)                                                            \
   static const CfgRow damage_rows_##NAME[] = {DAMAGE_##CAPITAL##_ROWS(ROW)};
 #define DAMAGE_ENTRY(CAPITAL, NAME) {damage_rows_##NAME, N(damage_rows_##NAME)},
 
-EOS_LAWS(EOS_TABLE)
-YIELD_LAWS(YIELD_TABLE)
-DAMAGE_LAWS(DAMAGE_TABLE)
+EOS_LAWS(EOS_ROW_TABLE)
+YIELD_LAWS(YIELD_ROW_TABLE)
+DAMAGE_LAWS(DAMAGE_ROW_TABLE)
 
 static const Law EOS[] = {EOS_LAWS(EOS_ENTRY)};
 static const Law YIELD[] = {{NULL, 0}, YIELD_LAWS(YIELD_ENTRY)};
@@ -79,10 +81,10 @@ static int source_check(const config_setting_t *group, const char *label, Err *e
 static int part_read(const config_setting_t *group, const Group *part, Material *m,
                      const char *label, Err *err)
 {
-  static const char *const also[] = {"form", "source"};
+  static const char *const also[] = {"form", "source", "file"};
   CfgRow rows[MAX_ROWS];
   const Law *law;
-  int n = 0;
+  int n = 0, table;
   if (form_read(group, part, m, label, err) || source_check(group, label, err)) return -1;
   law = &part->laws[*(int *)((char *)m + part->form)];
   for (int k = 0; k < part->nown; k++) rows[n++] = part->own[k];
@@ -90,7 +92,121 @@ static int part_read(const config_setting_t *group, const Group *part, Material 
     rows[n] = law->rows[k];
     rows[n++].offset = part->parameters + (size_t)k * sizeof(double);
   }
-  return cfg_read(group, rows, n, m, also, N(also), label, err);
+  table = !strcmp(part->name, "eos") && m->eos.form == EOS_TABLE;
+  return cfg_read(group, rows, n, m, also, N(also) - !table, label, err);
+}
+
+/* The k-th folder to look into, "" when there is none of that kind; 0 behind the last. */
+static int folder(int k, char path[MAX_PATH / 2])
+{
+  static const char *const beside[] = {"../materials", "../share/breccia/materials"};
+  const char *given = getenv("BRECCIA_MATERIALS");
+  char program[MAX_PATH / 4], *slash;
+  ssize_t n;
+  path[0] = '\0';
+  if (k >= 2 + N(beside)) return 0;
+  if (k == 0 && given) snprintf(path, MAX_PATH / 2, "%s", given);
+  if (k == 1) snprintf(path, MAX_PATH / 2, "materials");
+  if (k < 2) return 1;
+  n = readlink("/proc/self/exe", program, sizeof program - 1);
+  if (n < 0) return 1;
+  program[n] = '\0';
+  if (!(slash = strrchr(program, '/'))) return 1;
+  *slash = '\0';
+  snprintf(path, MAX_PATH / 2, "%s/%s", program, beside[k - 2]);
+  return 1;
+}
+
+/* ---- tables ---- */
+
+/* The text of a key, NULL when it is missing or none. */
+static const char *text_of(const config_setting_t *group, const char *key)
+{
+  const config_setting_t *s = group ? config_setting_get_member(group, key) : NULL;
+  const char *text =
+      s && config_setting_type(s) == CONFIG_TYPE_STRING ? config_setting_get_string(s) : NULL;
+  return text && *text ? text : NULL;
+}
+
+/* What a material says of its table: `file` in eos, and the group `table` that material_find adds.
+ */
+typedef struct {
+  const char *file, *path, *checksum;
+} TableKeys;
+
+static int table_keys(const config_setting_t *root, TableKeys *k, const char *label, Err *err)
+{
+  static const CfgRow none[] = {{NULL, CFG_TEXT, 0, NULL, NULL, 0, 0, NULL}};
+  static const char *const also[] = {"path", "checksum"};
+  const config_setting_t *eos = config_setting_get_member(root, "eos");
+  const config_setting_t *table = config_setting_get_member(root, "table");
+  k->file = text_of(eos, "file");
+  k->path = text_of(table, "path"), k->checksum = text_of(table, "checksum");
+  if (!k->file) return cfg_where(err, eos, label, "missing key 'file' (the table)");
+  if (table && cfg_read(table, none, 0, NULL, also, N(also), label, err)) return -1;
+  if (table && !k->checksum)
+    return cfg_where(err, table, label, "'table' needs a 'checksum', a text");
+  return 0;
+}
+
+/* Whether the table lies at path; 0 also when it is another one, which is noted in `other`. */
+static int table_at(const char *path, const char *checksum, char *other, size_t size, Err *err)
+{
+  char sum[9];
+  if (access(path, F_OK)) return 0;
+  if (!checksum) return 1;
+  if (tabfile_checksum(path, sum, err)) return -1;
+  if (!strcmp(sum, checksum)) return 1;
+  if (!*other) snprintf(other, size, "'%s' has the checksum %s, not %s", path, sum, checksum);
+  return 0;
+}
+
+/* The file of a table: where it was found before, in the folders of materials, as it is given. */
+static int table_find(const TableKeys *k, char path[MAX_PATH], Err *err)
+{
+  char at[MAX_PATH / 2], other[MAX_PATH / 4] = "";
+  int found = 0;
+  if (k->path) {
+    snprintf(path, MAX_PATH, "%s", k->path);
+    found = table_at(path, k->checksum, other, sizeof other, err);
+  }
+  for (int f = 0; !found && *k->file != '/' && folder(f, at); f++) {
+    if (!*at) continue;
+    snprintf(path, MAX_PATH, "%s/%s", at, k->file);
+    found = table_at(path, k->checksum, other, sizeof other, err);
+  }
+  if (!found) {
+    snprintf(path, MAX_PATH, "%s", k->file);
+    found = table_at(path, k->checksum, other, sizeof other, err);
+  }
+  if (found) return found < 0 ? -1 : 0;
+  if (*other)
+    return err_set(err, "the table is another than the material was made with: %s", other);
+  return err_set(
+      err, "no table '%s' in $BRECCIA_MATERIALS, 'materials', beside the program or here", k->file);
+}
+
+static int table_load(const config_setting_t *root, Material *m, const char *label, Err *err)
+{
+  const config_setting_t *eos = config_setting_get_member(root, "eos");
+  char path[MAX_PATH];
+  TableKeys k;
+  Table t;
+  Err why;
+  if (m->eos.form != EOS_TABLE) {
+    const config_setting_t *table = config_setting_get_member(root, "table");
+    return table ? cfg_where(err, table, label, "'table' goes with eos.form = \"table\" only") : 0;
+  }
+  if (table_keys(root, &k, label, err)) return -1;
+  if (table_find(&k, path, &why))
+    return cfg_where(err, config_setting_get_member(eos, "file"), label, "%s", why.text);
+  if (m->heat > 0)
+    return cfg_where(err, config_setting_get_member(eos, "heat_capacity"), label,
+                     "a table has its own temperatures: no 'heat_capacity'");
+  if (tabfile_read(&t, path, err)) return -1;
+  if (table_law(&m->eos.table, &t, err)) return table_free(&t), -1;
+  m->heat = table_heat(&m->eos.table);
+  return table_free(&t), 0;
 }
 
 /* What no single row can say. */
@@ -126,7 +242,7 @@ static int consistent(const config_setting_t *root, const Material *m, const cha
 
 static int name_read(const config_setting_t *root, MaterialName name, const char *label, Err *err)
 {
-  static const char *const also[] = {"eos", "strength", "damage"};
+  static const char *const also[] = {"eos", "strength", "damage", "table"};
   CfgRow row = {"name", CFG_TEXT, 0, NULL, NULL, 0, 0, "what the material is called"};
   if (cfg_read(root, &row, 1, name, also, N(also), label, err)) return -1;
   if (name[0] && !strpbrk(name, "/. \t\n")) return 0;
@@ -150,6 +266,7 @@ static int root_read(const config_setting_t *root, Material *m, const char *labe
   for (int k = 0; k < N(parts); k++) {
     const config_setting_t *group = config_setting_get_member(root, parts[k].name);
     if (group && part_read(group, &parts[k], m, label, err)) return -1;
+    if (k == 0 && table_load(root, m, label, err)) return -1;
   }
   return consistent(root, m, label, err);
 }
@@ -162,7 +279,19 @@ int material_parse(Material *m, const char *text, const char *label, Err *err)
   if (cfg_open_text(&cfg, text, label, err)) return -1;
   failed = root_read(config_root_setting(&cfg), m, label, err);
   config_destroy(&cfg);
+  if (failed) material_clear(m);
   return failed;
+}
+
+void material_clear(Material *m)
+{
+  if (m->eos.form == EOS_TABLE) table_law_free(&m->eos.table);
+}
+
+void material_free(Material *m, int n)
+{
+  for (int k = 0; m && k < n; k++) material_clear(&m[k]);
+  free(m);
 }
 
 Material *material_load(const Parts *p, Err *err)
@@ -173,32 +302,11 @@ Material *material_load(const Parts *p, Err *err)
   for (int k = 0; k < p->materials; k++) {
     snprintf(label, sizeof label, "/Materials/%s", p->material[k].name);
     if (material_parse(&m[k], p->material[k].text, label, err)) {
-      free(m);
+      material_free(m, k);
       return NULL;
     }
   }
   return m;
-}
-
-/* The k-th folder to look into, "" when there is none of that kind; 0 behind the last. */
-static int folder(int k, char path[MAX_PATH])
-{
-  static const char *const beside[] = {"../materials", "../share/breccia/materials"};
-  const char *given = getenv("BRECCIA_MATERIALS");
-  char program[MAX_PATH / 2], *slash;
-  ssize_t n;
-  path[0] = '\0';
-  if (k >= 2 + N(beside)) return 0;
-  if (k == 0 && given) snprintf(path, MAX_PATH, "%s", given);
-  if (k == 1) snprintf(path, MAX_PATH, "materials");
-  if (k < 2) return 1;
-  n = readlink("/proc/self/exe", program, sizeof program - 1);
-  if (n < 0) return 1;
-  program[n] = '\0';
-  if (!(slash = strrchr(program, '/'))) return 1;
-  *slash = '\0';
-  snprintf(path, MAX_PATH, "%s/%s", program, beside[k - 2]);
-  return 1;
 }
 
 static int by_name(const void *a, const void *b) { return strcmp(a, b); }
@@ -228,7 +336,7 @@ static int names_add(const char *path, MaterialName **names, int *n)
 MaterialName *material_names(int *n)
 {
   MaterialName *names = calloc(1, sizeof *names);
-  char path[MAX_PATH];
+  char path[MAX_PATH / 2];
   int all = 0;
   *n = 0;
   for (int k = 0; names && folder(k, path); k++)
@@ -269,58 +377,58 @@ static char *unknown(const char *name, Err *err)
   return NULL;
 }
 
-/* A whole text file, malloc'ed. */
-static char *slurp(const char *path, Err *err)
+/* Adds to the text of a material with a table, unless it has that, what finds the same table again:
+ * the checksum, and where it is when it lies beside a .cfg that was given by its path. */
+static char *table_note(char *text, const config_setting_t *root, const char *beside, Err *err)
 {
-  FILE *f = fopen(path, "r");
-  size_t room = 1 << 16, n = 0, got;
-  char *text = NULL, *more;
-  if (!f) return err_null(err, "cannot open '%s': %s", path, strerror(errno));
-  do {
-    if (n + 1 >= room) room *= 2;
-    if (!(more = realloc(text, room))) break;
-    text = more;
-    got = fread(text + n, 1, room - n - 1, f);
-    n += got;
-  } while (got > 0);
-  if (!more || ferror(f) || memchr(text, '\0', n)) {
-    err_set(err, "cannot read '%s': %s", path,
-            !more       ? "no memory"
-            : ferror(f) ? strerror(errno)
-                        : "not a text file");
-    free(text);
-    text = NULL;
-  } else
-    text[n] = '\0';
-  fclose(f);
-  return text;
+  const char *file = text_of(config_setting_get_member(root, "eos"), "file"),
+             *form = text_of(config_setting_get_member(root, "eos"), "form");
+  char note[MAX_PATH + 64], path[MAX_PATH] = "", sum[9], *longer;
+  TableKeys k = {file, NULL, NULL};
+  int there = 0;
+  if (!file || !form || strcmp(form, "table") || config_setting_get_member(root, "table"))
+    return text;
+  if (beside && *file != '/') {
+    int folder_length = (int)(strrchr(beside, '/') ? strrchr(beside, '/') - beside + 1 : 0);
+    snprintf(path, sizeof path, "%.*s%s", folder_length, beside, file);
+    there = !access(path, F_OK);
+  }
+  if (there)
+    snprintf(note, sizeof note, "path = \"%s\"; ", path);
+  else
+    *note = '\0';
+  if ((!there && table_find(&k, path, err)) || tabfile_checksum(path, sum, err)) return NULL;
+  if (!(longer = malloc(strlen(text) + strlen(note) + 64))) return err_null(err, "no memory");
+  sprintf(longer, "%s\ntable = { %schecksum = \"%s\"; };\n", text, note, sum);
+  free(text);
+  return longer;
 }
 
-static char *named(const char *path, MaterialName name, Err *err)
+/* beside: the path of the .cfg when it was given, NULL when it was found by name. */
+static char *named(const char *path, const char *beside, MaterialName name, Err *err)
 {
-  char *text = slurp(path, err);
+  char *text = spool_slurp(path, err), *longer = NULL;
   config_t cfg;
-  int failed;
   if (!text || cfg_open_text(&cfg, text, path, err)) {
     free(text);
     return NULL;
   }
-  failed = name_read(config_root_setting(&cfg), name, path, err);
+  if (!name_read(config_root_setting(&cfg), name, path, err))
+    longer = table_note(text, config_root_setting(&cfg), beside, err);
   config_destroy(&cfg);
-  if (!failed) return text;
-  free(text);
-  return NULL;
+  if (!longer) free(text);
+  return longer;
 }
 
 char *material_find(const char *name_or_path, MaterialName name, Err *err)
 {
   size_t length = strlen(name_or_path);
-  char at[MAX_PATH], path[MAX_PATH + 128];
+  char at[MAX_PATH / 2], path[MAX_PATH];
   if (strchr(name_or_path, '/') || (length > 4 && !strcmp(name_or_path + length - 4, ".cfg")))
-    return named(name_or_path, name, err);
+    return named(name_or_path, name_or_path, name, err);
   for (int k = 0; length > 0 && length < sizeof(MaterialName) && folder(k, at); k++) {
     snprintf(path, sizeof path, "%s/%s.cfg", at, name_or_path);
-    if (*at && !access(path, F_OK)) return named(path, name, err);
+    if (*at && !access(path, F_OK)) return named(path, NULL, name, err);
   }
   return unknown(name_or_path, err);
 }

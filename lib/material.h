@@ -3,7 +3,12 @@
  * each with the `form` of its law (a word of EOS_WORDS, YIELD_WORDS, DAMAGE_WORDS), the law's
  * parameters and, if one likes, their `source`; `strength` also holds shear_modulus and
  * melt_energy. Without strength it is a fluid, without damage it does not break. The laws and their
- * rows are in physics/. */
+ * rows are in physics/.
+ *
+ * eos.form = "table" has the key `file`, a table in one of the formats of tabfile.h: beside the
+ * .cfg, in the folders where materials are looked for, or from the working folder. The text that a
+ * snapshot keeps gets a group `table` with the file's checksum, so that no other table passes for
+ * it later. */
 #ifndef LIB_MATERIAL_H
 #define LIB_MATERIAL_H
 
@@ -21,10 +26,14 @@ char *material_find(const char *name_or_path, MaterialName name, Err *err);
 /* material_names: the names that material_find knows, sorted; malloc'ed, NULL without memory. */
 MaterialName *material_names(int *n);
 
-/* material_parse: text into laws and parameters; every error is `label:line: ...`. */
+/* material_parse: text into laws and parameters, tables read; every error is `label:line: ...`.
+ * material_clear gives the memory of a table back. */
 int material_parse(Material *m, const char *text, const char *label, Err *err);
+void material_clear(Material *m);
 
-/* material_load: all materials of a snapshot, parsed, [p->materials]; malloc'ed. */
+/* material_load: all materials of a snapshot, parsed, [p->materials]. material_free: these and
+ * their tables. */
 Material *material_load(const Parts *p, Err *err);
+void material_free(Material *m, int n);
 
 #endif

@@ -287,6 +287,9 @@ int profile_read(Profile *out, const char *path, Err *err)
 
 void profile_free(Profile *p)
 {
-  for (int k = 0; k < STRUCTURE_LAYERS; k++) free(p->text[k]), p->text[k] = NULL;
+  for (int k = 0; k < STRUCTURE_LAYERS; k++) {
+    if (p->text[k]) material_clear(&p->material[k]);
+    free(p->text[k]), p->text[k] = NULL;
+  }
   structure_free(&p->s);
 }

@@ -257,3 +257,29 @@ int spool_text(const char *path, const char *text, Err *err)
   spool_abort(&s);
   return -1;
 }
+
+char *spool_slurp(const char *path, Err *err)
+{
+  FILE *f = fopen(path, "r");
+  size_t room = 1 << 16, n = 0, got;
+  char *text = NULL, *more;
+  if (!f) return err_null(err, "cannot open '%s': %s", path, strerror(errno));
+  do {
+    if (n + 1 >= room) room *= 2;
+    if (!(more = realloc(text, room))) break;
+    text = more;
+    got = fread(text + n, 1, room - n - 1, f);
+    n += got;
+  } while (got > 0);
+  if (!more || ferror(f) || memchr(text, '\0', n)) {
+    err_set(err, "cannot read '%s': %s", path,
+            !more       ? "no memory"
+            : ferror(f) ? strerror(errno)
+                        : "not a text file");
+    free(text);
+    text = NULL;
+  } else
+    text[n] = '\0';
+  fclose(f);
+  return text;
+}

@@ -34,7 +34,9 @@ void spool_opened(Spool *s);
 int spool_commit(Spool *s, Err *err);
 void spool_abort(Spool *s);
 
-/* spool_text: writes a whole text file atomically. */
+/* spool_text: writes a whole text file atomically. spool_slurp: a whole text file, malloc'ed; NULL
+ * with a message, also when it is not text. */
 int spool_text(const char *path, const char *text, Err *err);
+char *spool_slurp(const char *path, Err *err);
 
 #endif

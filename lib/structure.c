@@ -74,7 +74,10 @@ int structure_density(const Eos *eos, double u, double *rho, Err *err)
   if (u == 0 || !eos_uses_energy(eos)) return 0;
   *rho = density(excess, &search);
   if (*rho > 0) return 0;
-  return err_set(err, "at %g J/kg it is not condensed: its pressure is never zero", u);
+  return err_set(err,
+                 "at %g J/kg it is not condensed: its pressure is never zero (as in tables "
+                 "without tension: give a temperature, and a pressure outside)",
+                 u);
 }
 
 double structure_stiffness(const StructureLayer *l, const StructureState *anchor, double rho,
@@ -418,7 +421,8 @@ void structure_heat(Structure *s, const StructureBody *body)
       n->t = n->s = NAN;
       if (!(m->heat > 0)) continue;
       if (rho > 0) cold = thermal_isentrope(&m->eos, rho, cold, n->rho), rho = n->rho;
-      n->t = fmax(0, (n->u - cold) / m->heat);
+      n->t = m->eos.form == EOS_TABLE ? thermal_temperature(m, n->rho, n->u)
+                                      : fmax(0, (n->u - cold) / m->heat);
       if (l->power || isnan(entropy)) entropy = thermal_entropy(m, n->rho, n->u);
       n->s = entropy;
     }

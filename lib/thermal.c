@@ -37,26 +37,40 @@ double thermal_cold(const Eos *eos, double rho)
   return rho0 > 0 ? thermal_isentrope(eos, rho0, 0, rho) : 0;
 }
 
+/* What a table says. */
+static EosTableState look(const Material *m, double rho, int part, double value)
+{
+  return eos_table_state(&m->eos.table, rho, part, value);
+}
+
 double thermal_temperature(const Material *m, double rho, double u)
 {
+  if (m->eos.form == EOS_TABLE) return look(m, rho, EOS_TABLE_U, u).T;
   return m->heat > 0 ? (u - thermal_cold(&m->eos, rho)) / m->heat : NAN;
 }
 
 double thermal_energy(const Material *m, double rho, double t)
 {
+  if (m->eos.form == EOS_TABLE) return look(m, rho, EOS_TABLE_T, t).u;
   return m->heat > 0 ? thermal_cold(&m->eos, rho) + m->heat * t : NAN;
 }
 
 /* u = u_cold + C_V T, so that u_cold need not be known. */
 double thermal_slope(const Material *m, double rho, double u, double t, double a)
 {
-  double cold = eos_rho0(&m->eos) > 0 ? eos_eval(&m->eos, rho, u - m->heat * t, 0).p : 0;
+  double cold;
+  if (m->eos.form == EOS_TABLE) {
+    EosTableState at = look(m, rho, EOS_TABLE_T, t);
+    return at.u_rho + at.u_T * t * a / rho;
+  }
+  cold = eos_rho0(&m->eos) > 0 ? eos_eval(&m->eos, rho, u - m->heat * t, 0).p : 0;
   return m->heat > 0 ? cold / (rho * rho) + m->heat * t * a / rho : NAN;
 }
 
 double thermal_entropy(const Material *m, double rho, double u)
 {
   double rho0 = eos_rho0(&m->eos);
+  if (m->eos.form == EOS_TABLE) return look(m, rho, EOS_TABLE_U, u).s;
   if (!(m->heat > 0 && rho0 > 0)) return NAN;
   u = thermal_isentrope(&m->eos, rho, u, rho0);
   return m->heat * log(fmax(u, 0) / m->heat);
@@ -64,5 +78,6 @@ double thermal_entropy(const Material *m, double rho, double u)
 
 double thermal_at_entropy(const Material *m, double s)
 {
+  if (m->eos.form == EOS_TABLE) return look(m, eos_rho0(&m->eos), EOS_TABLE_S, s).u;
   return m->heat > 0 && eos_rho0(&m->eos) > 0 ? m->heat * exp(s / m->heat) : NAN;
 }

@@ -3,7 +3,7 @@
  * where u_cold is the energy along the isentrope du = p/rho^2 drho that passes through rho0 with no
  * energy (a gas: 0). Entropy is counted from rho0 at 1 K: it is constant along an isentrope,
  * and at rho0 du = T ds, so that s = heat_capacity ln(T(rho0)/1 K) of the isentrope's
- * temperature at rho0. */
+ * temperature at rho0. A table has temperatures and entropies of its own, which are taken. */
 #ifndef THERMAL_H
 #define THERMAL_H
 

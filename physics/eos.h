@@ -40,14 +40,16 @@ HD double eos_no_tension(double p, double eta, double rho_min)
 #include "eos/polytropic.h"
 #include "eos/isothermal.h"
 #include "eos/local_isothermal.h"
+#include "eos/table.h"
 
 /* X(CAPITAL, name): name is the token in material files (eos.form = "tillotson"), the file, and the
  * function eos_<name>. */
 /* clang-format off */
-#define EOS_LAWS(X) \
+#define EOS_FORMULAS(X) \
   X(TILLOTSON, tillotson) X(MURNAGHAN, murnaghan) X(LIQUID, liquid) X(STIFFENED, stiffened) \
   X(IDEAL, ideal) X(POLYTROPIC, polytropic) X(ISOTHERMAL, isothermal) \
   X(LOCAL_ISOTHERMAL, local_isothermal)
+#define EOS_LAWS(X) EOS_FORMULAS(X) X(TABLE, table)
 /* clang-format on */
 
 typedef enum {
@@ -70,17 +72,23 @@ typedef struct {
   };
 } Eos;
 
-/* eos_eval: p and c at rho [kg/m^3] > 0, u [J/kg]. r: distance from the central mass [m], used by
- * local_isothermal only. */
-HD EosPoint eos_eval(const Eos *e, double rho, double u, double r)
+/* eos_formula: eos_eval without tables, whose code takes the registers of a kernel up. */
+HD EosPoint eos_formula(const Eos *e, double rho, double u, double r)
 {
   switch (e->form) {
 #define EOS_CASE(CAPITAL, NAME)                                                                    \
   case EOS_##CAPITAL: return eos_##NAME(&e->NAME, rho, u, r);
-    EOS_LAWS(EOS_CASE)
+    EOS_FORMULAS(EOS_CASE)
 #undef EOS_CASE
   default: return eos_point(0, 0, 0);
   }
+}
+
+/* eos_eval: p and c at rho [kg/m^3] > 0, u [J/kg]. r: distance from the central mass [m], used by
+ * local_isothermal only. */
+HD EosPoint eos_eval(const Eos *e, double rho, double u, double r)
+{
+  return e->form == EOS_TABLE ? eos_table(&e->table, rho, u, r) : eos_formula(e, rho, u, r);
 }
 
 /* eos_rho0: density at zero pressure and energy [kg/m^3]; 0 for a gas. */
@@ -98,7 +106,9 @@ HD double eos_rho0(const Eos *e)
 /* eos_bulk: bulk modulus rho c^2 at zero pressure and energy [Pa]; 0 for a gas. */
 HD double eos_bulk(const Eos *e)
 {
-  double rho0 = eos_rho0(e), c = rho0 > 0 ? eos_eval(e, rho0, 0, 0).cs : 0;
+  double rho0 = eos_rho0(e), c;
+  if (e->form == EOS_TABLE) return e->table.bulk;
+  c = rho0 > 0 ? eos_formula(e, rho0, 0, 0).cs : 0;
   return rho0 * c * c;
 }
 
@@ -111,7 +121,7 @@ HD int eos_vapour(const Eos *e, double rho, double u)
 /* eos_uses_energy: whether p depends on u (else the energy is carried along but has no effect). */
 HD int eos_uses_energy(const Eos *e)
 {
-  return e->form == EOS_TILLOTSON || e->form == EOS_IDEAL ||
+  return e->form == EOS_TILLOTSON || e->form == EOS_IDEAL || e->form == EOS_TABLE ||
          (e->form == EOS_STIFFENED && e->stiffened.G > 0);
 }
 

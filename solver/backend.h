@@ -13,6 +13,8 @@ typedef struct {
   double mass, kinetic, internal, potential;
   double momentum[3], angular[3], centre[3]; /* kg m/s, kg m^2/s, m */
   double scale_momentum, scale_angular; /* sum m |v|, sum m |r x v|: what drifts are measured by */
+  double
+      outside[3]; /* particles outside their table: in density, above it and below it in energy */
 } Sums;
 
 /* The smallest of each time-step criterion, the particle that has it, and the first particle in a
@@ -86,6 +88,7 @@ struct Sim {
   int materials;
   int solid;    /* any material with a shear modulus, and strength on */
   int heated;   /* any material whose strength has a temperature of its own, and strength on */
+  int tables;   /* any material with a table */
   int miscible; /* the number-density form */
   State s;
   void *own;       /* the backend's */

@@ -52,7 +52,9 @@ HD void matter_eos(const State *s, long i, double u, int strength)
 {
   const Material *m = &s->material[s->mat[i]];
   const double *x = &s->x[3 * i];
-  EosPoint e = eos_eval(&m->eos, s->rho[i], u, sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]));
+  double r = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+  EosPoint e =
+      s->tables ? eos_eval(&m->eos, s->rho[i], u, r) : eos_formula(&m->eos, s->rho[i], u, r);
   if (e.p < 0 && strength && m->mu > 0 && yield_knows_pressure(&m->yield))
     e.p = matter_tension(m, e.p, s->rho[i], u, s->damage[i]);
   s->ue[i] = u;

@@ -105,10 +105,24 @@ double output_due(const Output *o)
   return t < o->end ? t : o->end;
 }
 
+/* A line in the log when the particles outside their tables are others than at the last look. */
+static void note_outside(Output *o, const Sim *sim, const double outside[3])
+{
+  if (!memcmp(o->outside, outside, sizeof o->outside)) return;
+  memcpy(o->outside, outside, sizeof o->outside);
+  o->most_outside = fmax(o->most_outside, fmax(outside[0], outside[1] + outside[2]));
+  output_log(
+      o,
+      "step %ld, t = %.9g s: outside their table of the equation of state are %.0f particles "
+      "in density, %.0f in energy above, %.0f below",
+      sim->step, sim->time, outside[0], outside[1], outside[2]);
+}
+
 int output_conserved(Output *o, Sim *sim, const SimStep *done, Err *err)
 {
   Sums s;
   if (sim_sums(sim, &s, err)) return -1;
+  note_outside(o, sim, s.outside);
   fprintf(o->conserved, "%ld\t%.9g\t%.6g\t%s\t%lld\t%.12g\t%.12g\t%.12g\t%.12g", sim->step,
           sim->time, done ? done->dt : 0, done ? sim_limit_name(done->limit) : "start",
           done ? (long long)done->id : -1LL, s.kinetic, s.internal, s.potential,

@@ -13,6 +13,7 @@ typedef struct {
   double start, every, end; /* s */
   long next;                /* index of the next snapshot */
   FILE *conserved, *log;
+  double outside[3], most_outside; /* particles outside their tables: at the last look; ever */
   Writer writer;
   /* What the writer is at: a snapshot or a checkpoint, of this state. */
   Sim *sim;
@@ -34,7 +35,8 @@ void output_close(Output *o);
 /* output_due: the time of the next snapshot [s]. */
 double output_due(const Output *o);
 
-/* output_conserved: a line of sums; done is the step just made, or NULL at the start. */
+/* output_conserved: a line of sums; done is the step just made, or NULL at the start. Particles
+ * outside their tables are counted, and said in the log when there are others than before. */
 int output_conserved(Output *o, Sim *sim, const SimStep *done, Err *err);
 
 /* output_snapshot: snap_NNNN.h5, and run.h5part anew. output_checkpoint: checkpoint.h5; when it is

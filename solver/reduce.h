@@ -7,9 +7,11 @@
 
 #include "backend.h"
 
+enum { REDUCE_SUMS = 18 };
+
 /* Sums over all particles, as Sums has them. */
 typedef struct {
-  double v[15];
+  double v[REDUCE_SUMS];
 } ReduceSums;
 
 HD void reduce_add_sums(ReduceSums *o, const State *s, long i)
@@ -21,11 +23,15 @@ HD void reduce_add_sums(ReduceSums *o, const State *s, long i)
   for (int d = 0; d < 3; d++)
     o->v[4 + d] += m * v[d], o->v[7 + d] += m * l[d], o->v[10 + d] += m * x[d];
   o->v[13] += m * sqrt(v2), o->v[14] += m * sqrt(l[0] * l[0] + l[1] * l[1] + l[2] * l[2]);
+  if (s->tables && s->material[s->mat[i]].eos.form == EOS_TABLE) {
+    int outside = eos_table_outside(&s->material[s->mat[i]].eos.table, s->rho[i], s->u[i]);
+    for (int d = 0; d < 3; d++) o->v[15 + d] += outside >> d & 1;
+  }
 }
 
 HD void reduce_merge_sums(ReduceSums *a, const ReduceSums *b)
 {
-  for (int k = 0; k < 15; k++) a->v[k] += b->v[k];
+  for (int k = 0; k < REDUCE_SUMS; k++) a->v[k] += b->v[k];
 }
 
 HD void reduce_sums(const ReduceSums *t, Sums *out)
@@ -33,7 +39,7 @@ HD void reduce_sums(const ReduceSums *t, Sums *out)
   const double *v = t->v;
   out->mass = v[0], out->kinetic = v[1], out->internal = v[2], out->potential = v[3];
   for (int d = 0; d < 3; d++) {
-    out->momentum[d] = v[4 + d], out->angular[d] = v[7 + d];
+    out->momentum[d] = v[4 + d], out->angular[d] = v[7 + d], out->outside[d] = v[15 + d];
     out->centre[d] = v[0] > 0 ? v[10 + d] / v[0] : 0;
   }
   out->scale_momentum = v[13], out->scale_angular = v[14];

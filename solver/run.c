@@ -166,6 +166,9 @@ int run_system(const RunOptions *o, const Param *par, Parts *parts, Err *err)
              "; the last good checkpoint is '%s/checkpoint.h5'", o->dir);
   }
   if (rc == 0) output_log(&r.out, "done at step %ld, t = %.9g s", r.sim.step, r.sim.time);
+  if (rc >= 0 && r.out.most_outside > 0)
+    err_warn("up to %.0f particles were outside the table of their equation of state: see run.log",
+             r.out.most_outside);
   if (rc >= 0 && o->profile) profile_print(&r.sim, r.sim.step - r.first_step, stderr);
   output_close(&r.out);
   sim_close(&r.sim);

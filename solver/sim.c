@@ -62,6 +62,7 @@ static int open_common(Sim *sim, const Param *par, const Parts *p, const char *d
     const Material *m = &sim->material[k];
     sim->solid |= par->strength && m->mu > 0;
     sim->heated |= par->strength && material_heats(m);
+    sim->tables |= m->eos.form == EOS_TABLE;
   }
   return 0;
 }
@@ -129,7 +130,7 @@ int sim_restart(Sim *sim, const Param *par, const Parts *p, const char *device, 
 void sim_close(Sim *sim)
 {
   if (sim->b && sim->own) sim->b->close(sim);
-  free(sim->material);
+  material_free(sim->material, sim->materials);
   sim->material = NULL;
 }
 

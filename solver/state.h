@@ -48,6 +48,7 @@ typedef struct {
 typedef struct {
   long n;
   int dimension;
+  int tables;               /* any material has a table for its equation of state */
   const Material *material; /* [materials], indexed by mat */
   const double *flaw;       /* thresholds of all particles, ascending within one */
 #define STATE_MEMBER(TYPE, MEMBER, ...) TYPE *MEMBER;

@@ -7,6 +7,8 @@
 #include "../lib/rng.h"
 #include "../lib/weibull.h"
 #include "../solver/reduce.h"
+#include "folder.h"
+#include "tabulated.h"
 
 /* Materials in units of their own, every law among them. */
 #define LIQUID(NAME)                                                                               \
@@ -36,7 +38,9 @@ static const char *const materials[] = {
         "l") "strength = { shear_modulus = 1.; form = \"collins\"; cohesion = 0.1; friction = 1.;"
              "limit = 0.3; friction_damaged = 0.5; melt_energy = 2.; };",
     LIQUID("m") "strength = { shear_modulus = 1.; form = \"johnson_cook\"; A = 0.1; B = 0.1;"
-                "n = 0.3; C = 0.1; rate0 = 0.1; T0 = 0.; Tmelt = 2.; };"};
+                "n = 0.3; C = 0.1; rate0 = 0.1; T0 = 0.; Tmelt = 2.; };",
+    "name = \"n\"; eos = { form = \"table\"; file = \"heat.h5\"; };",
+    "name = \"o\"; eos = { form = \"table\"; file = \"energy.h5\"; };"};
 enum { MATERIALS = sizeof materials / sizeof *materials };
 
 /* The arrays of a State. */
@@ -153,7 +157,7 @@ static Parts *cloud(long n, int dimension)
   assert_return_code(weibull_assign(p, material, &(WeibullOptions){.seed = 3, .minimum = 1}, &group,
                                     &groups, &err),
                      0);
-  free(group), free(material);
+  free(group), material_free(material, p->materials);
   return p;
 }
 
@@ -181,7 +185,7 @@ static void all_laws(void **state)
   for (int k = 0; k < EOS_COUNT; k++) assert_true(eos[k]);
   for (int k = 0; k < YIELD_COUNT; k++) assert_true(yield[k]);
   for (int k = 0; k < DAMAGE_COUNT; k++) assert_true(damage[k]);
-  free(m), part_free(p);
+  material_free(m, p->materials), part_free(p);
 }
 
 /* Every array of the CPU's State anew, within what makes sense; seed draws. */
@@ -452,7 +456,7 @@ static Parts *impact(double dx)
   assert_return_code(weibull_assign(p, material, &(WeibullOptions){.seed = 3, .minimum = 1}, &group,
                                     &groups, &err),
                      0);
-  free(group), free(material);
+  free(group), material_free(material, p->materials);
   return p;
 }
 
@@ -518,11 +522,27 @@ static void bits(void **state)
   part_free(first);
 }
 
+/* The tables of the materials, of temperatures and of energies, smaller than where states lie. */
+static int tables(void **state)
+{
+  static const double rho[] = {0.6, 1.8}, y[] = {0.2, 1.1};
+  static const Material gas = {.heat = 1, .eos = {.form = EOS_IDEAL, .ideal = {1.4, 0}}};
+  Err err;
+  if (folder_setup(state)) return -1;
+  for (int heat = 0; heat < 2; heat++) {
+    Table t = tabulated_law(&gas, rho, 12, y, 9, heat);
+    if (tabfile_write(&t, heat ? "heat.h5" : "energy.h5", TABFILE_HDF5, &err))
+      fail_msg("%s", err.text);
+    table_free(&t);
+  }
+  return 0;
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(all_laws),   cmocka_unit_test(passes),
                                      cmocka_unit_test(reductions), cmocka_unit_test(all_loops),
                                      cmocka_unit_test(gravity),    cmocka_unit_test(impacts),
                                      cmocka_unit_test(bits)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return cmocka_run_group_tests(tests, tables, folder_teardown);
 }

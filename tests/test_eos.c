@@ -105,6 +105,21 @@ typedef struct {
   double rho, u, r;
 } State;
 
+/* p = 0.4 rho u at 4 x 4 nodes, on which every value and slope is known; states lie inside and
+ * outside. */
+static const struct eos_table *gas_table(void)
+{
+  static double data[8 + 16 * 14] = {0.1, 0.5, 1, 1.5, 0, 0.5, 1, 8};
+  static struct eos_table e = {.nrho = 4, .ny = 4, .data = data};
+  double *p = data + eos_table_start(&e, EOS_TABLE_P), *c = data + eos_table_start(&e, EOS_TABLE_C);
+  for (int k = 0; k < 16; k++) {
+    double rho = data[k / 4], u = data[4 + k % 4];
+    p[4 * k] = 0.4 * rho * u, p[4 * k + 1] = 0.4 * u, p[4 * k + 2] = 0.4 * rho, p[4 * k + 3] = 0.4;
+    c[k] = sqrt(0.56 * u);
+  }
+  return &e;
+}
+
 static int states(State *s)
 {
   static const struct {
@@ -130,7 +145,9 @@ static int states(State *s)
     static const struct eos_local_isothermal disk = {0.05, 2e30, 1e9};
     State at = {{0}, T[k].eta, 1e3 * T[k].x, 1e11};
     Eos *e = &at.eos;
-    at.rho = T[k].eta * 2860, e->form = EOS_MURNAGHAN, e->murnaghan = murnaghan, s[n++] = at;
+    at.rho = T[k].eta, at.u *= 1e-3, e->form = EOS_TABLE, e->table = *gas_table(), s[n++] = at;
+    at.u *= 1e3, at.rho = T[k].eta * 2860, e->form = EOS_MURNAGHAN, e->murnaghan = murnaghan,
+                 s[n++] = at;
     at.rho = T[k].eta * 1000, e->form = EOS_LIQUID, e->liquid = liquid, s[n++] = at;
     e->form = EOS_STIFFENED, e->stiffened = water, s[n++] = at;
     at.rho = T[k].eta * 13534, e->stiffened = mercury, s[n++] = at;

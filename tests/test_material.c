@@ -13,6 +13,8 @@
 #include <cmocka.h>
 #include "lib/cfg.h"
 #include "lib/material.h"
+#include "lib/tabfile.h"
+#include "folder.h"
 
 #define N(A) (int)(sizeof(A) / sizeof *(A))
 
@@ -36,7 +38,9 @@ static double trial(int k, double max) { return max < 2 ? max - 0.01 * k : 1.5 +
 #define EOS_TEST(CAPITAL, NAME)                                                                    \
   static void eos_law_##NAME(void)                                                                 \
   {                                                                                                \
-    char text[4096], *at = text + sprintf(text, "name = \"x\"; eos = { form = \"%s\";\n", #NAME);  \
+    char text[4096],                                                                               \
+        *at = text + sprintf(text, "name = \"x\"; eos = { form = \"%s\"; %s\n", #NAME,             \
+                             EOS_##CAPITAL == EOS_TABLE ? "file = \"any.h5\";" : "");              \
     Material m;                                                                                    \
     const struct eos_##NAME *law = &m.eos.NAME;                                                    \
     int row = 0;                                                                                   \
@@ -44,7 +48,7 @@ static double trial(int k, double max) { return max < 2 ? max - 0.01 * k : 1.5 +
     m = parse(text);                                                                               \
     assert_int_equal(m.eos.form, EOS_##CAPITAL);                                                   \
     row = 0;                                                                                       \
-    EOS_##CAPITAL##_ROWS(CHECK_ROW)                                                                \
+    EOS_##CAPITAL##_ROWS(CHECK_ROW) material_clear(&m);                                            \
   }
 #define YIELD_TEST(CAPITAL, NAME)                                                                  \
   static void yield_law_##NAME(void)                                                               \
@@ -67,11 +71,24 @@ static double trial(int k, double max) { return max < 2 ? max - 0.01 * k : 1.5 +
 EOS_LAWS(EOS_TEST)
 YIELD_LAWS(YIELD_TEST)
 
+/* Any table, where tests run. */
+static void any_table(void)
+{
+  const double rho[] = {1, 2, 3, 4};
+  Table t;
+  Err err;
+  assert_int_equal(table_new(&t, 4, 4, 0, &err), 0);
+  memcpy(t.rho, rho, sizeof rho), memcpy(t.y, rho, sizeof rho);
+  if (tabfile_write(&t, "any.h5", TABFILE_HDF5, &err)) fail_msg("%s", err.text);
+  table_free(&t);
+}
+
 static void every_law(void **state)
 {
 #define CALL_EOS(CAPITAL, NAME)   eos_law_##NAME();
 #define CALL_YIELD(CAPITAL, NAME) yield_law_##NAME();
   (void)state;
+  any_table();
   EOS_LAWS(CALL_EOS)
   YIELD_LAWS(CALL_YIELD)
 }
@@ -291,10 +308,14 @@ static void of_a_snapshot(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(every_law), cmocka_unit_test(units_and_defaults),
-      cmocka_unit_test(mistakes),  cmocka_unit_test(files),
-      cmocka_unit_test(table_1),   cmocka_unit_test(unknown),
-      cmocka_unit_test(finding),   cmocka_unit_test(of_a_snapshot),
+      cmocka_unit_test(units_and_defaults),
+      cmocka_unit_test(mistakes),
+      cmocka_unit_test(files),
+      cmocka_unit_test(table_1),
+      cmocka_unit_test(unknown),
+      cmocka_unit_test(finding),
+      cmocka_unit_test(of_a_snapshot),
+      cmocka_unit_test_setup_teardown(every_law, folder_setup, folder_teardown),
   };
   setenv("BRECCIA_MATERIALS", "materials", 0);
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -91,6 +91,7 @@ static int cpu_open(Sim *sim, const Parts *p, Err *err)
   memset(&sim->s, 0, sizeof sim->s);
   sim->s.n = p->n;
   sim->s.dimension = p->dimension;
+  sim->s.tables = sim->tables;
   sim->s.material = sim->material;
   c->order = malloc((n + 1) * sizeof *c->order);
   c->record = malloc((n + 1) * 22 * sizeof(double));

@@ -88,8 +88,9 @@ typedef struct {
   struct CudaClock *clock;     /* private to clock.cu */
   double *flaw;                /* all thresholds */
   Material *material;
-  size_t bytes; /* allocated at present */
-  int ample;    /* memory is: whole orders and whole files find room to be copied at once */
+  double **table; /* [materials] tables of equations of state; NULL: none */
+  size_t bytes;   /* allocated at present */
+  int ample;      /* memory is: whole orders and whole files find room to be copied at once */
 } Cuda;
 
 static inline Cuda *cuda_of(const Sim *sim) { return (Cuda *)sim->own; }

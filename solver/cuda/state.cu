@@ -105,14 +105,43 @@ static size_t points_of(const Sim *sim)
   return sim->par.gravity == PARAM_NONE ? 0 : (size_t)sim->s.n;
 }
 
+/* What the table of material k takes: only what eos_table reads goes to the card. */
+static size_t table_bytes(const Sim *sim, int k)
+{
+  const Eos *e = &sim->material[k].eos;
+  return e->form == EOS_TABLE ? eos_table_words(&e->table) * sizeof(double) : 0;
+}
+
 size_t cuda_state_bytes(Sim *sim, const Parts *p)
 {
   CudaColumn column[CUDA_COLUMNS];
   size_t n = (size_t)sim->s.n, sum = 0;
   int all;
   cuda_columns(sim, column, &all);
+  for (int k = 0; k < sim->materials; k++) sum += rounded(table_bytes(sim, k));
   for (int k = 0; k < all; k++) sum += rounded(n * (size_t)(column[k].width * column[k].size));
   return sum + points_of(sim) * 2 * sizeof(float4) + flaws_of(sim, p) * sizeof(double);
+}
+
+/* Materials, with their tables. */
+static int fill_materials(Sim *sim, Err *err)
+{
+  Cuda *c = cuda_of(sim);
+  size_t bytes = (size_t)sim->materials * sizeof(Material);
+  Material *copy = (Material *)malloc(bytes ? bytes : 1);
+  int bad;
+  c->table = (double **)calloc((size_t)sim->materials + 1, sizeof *c->table);
+  bad = copy && c->table ? 0 : err_set(err, "no memory for %d materials", sim->materials);
+  for (int k = 0; k < sim->materials && !bad; k++) {
+    copy[k] = sim->material[k];
+    if (!table_bytes(sim, k)) continue;
+    bad = cuda_alloc(sim, (void **)&c->table[k], table_bytes(sim, k), err) ||
+          cuda_copy(sim, c->table[k], copy[k].eos.table.data, table_bytes(sim, k), err);
+    copy[k].eos.table.data = c->table[k];
+  }
+  if (!bad) bad = cuda_copy(sim, c->material, copy, bytes, err);
+  free(copy);
+  return bad;
 }
 
 static int alloc(Sim *sim, const Parts *p, Err *err)
@@ -164,7 +193,7 @@ static int fill(Sim *sim, const Parts *p, Err *err)
     return -1;
   if (cuda_copy(sim, c->flaw, p->flaw, flaws_of(sim, p) * sizeof *p->flaw, err)) return -1;
   s->flaw = c->flaw, s->material = c->material;
-  return cuda_copy(sim, c->material, sim->material, (size_t)sim->materials * sizeof(Material), err);
+  return fill_materials(sim, err);
 }
 
 /* The power of two below x; 1 when there is nothing to go by. */
@@ -209,4 +238,6 @@ void cuda_state_close(Sim *sim)
   for (int k = 0; k < all; k++) cuda_free(*column[k].array);
   cuda_free(c->x.hi), cuda_free(c->x.lo);
   cuda_free(c->flaw), cuda_free(c->material);
+  for (int k = 0; c->table && k < sim->materials; k++) cuda_free(c->table[k]);
+  free(c->table);
 }

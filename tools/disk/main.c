@@ -90,7 +90,7 @@ static double rest_density(const Parts *p, Err *err)
     const double rho0 = p->disk[i] == DISK_DISK ? eos_rho0(&material[p->mat[i]].eos) : 0;
     if (rho0 > 0) mass += p->m[i], volume += p->m[i] / rho0;
   }
-  free(material);
+  material_free(material, p->materials);
   return volume > 0 ? mass / volume : NAN;
 }
 

@@ -277,7 +277,7 @@ int main(int argc, char **argv)
     err_die("%s", err.text);
   summary(&b, &placed);
   quality(&b, placed.p);
-  for (int k = 0; k < b.r.body.layers; k++) free(b.text[k]);
+  for (int k = 0; k < b.r.body.layers; k++) material_clear(&b.material[k]), free(b.text[k]);
   profile_free(&b.profile), part_free(names), part_free(placed.p);
   free(line), free(o.layers.text);
   return 0;

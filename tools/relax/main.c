@@ -240,9 +240,9 @@ int main(int argc, char **argv)
   if (!o.only &&
       (relax(&b, &err) || part_history(b.p, command, &err) || snap_write(b.p, o.output, 0, &err)))
     err_die("%s", err.text);
+  material_free(b.material, b.p->materials);
   part_free(b.p);
   structure_free(&b.s);
-  free(b.material);
   free(b.layer);
   free(command);
   if (o.only || strcmp(o.output, "-") != 0) err_close_stdout();

@@ -206,7 +206,8 @@ int main(int argc, char **argv)
   if (part_history(p, line, &err) || snap_write(p, o.out, 0, &err)) err_die("%s", err.text);
   if (o.verbose) table(p, group, groups);
   if (groups) summary(p, group, groups);
-  free(group), free(material), free(line), free(seeds), free(k), free(m), part_free(p);
+  free(group), material_free(material, p->materials), free(line), free(seeds), free(k), free(m),
+      part_free(p);
   free(o.seed.text), free(o.k.text), free(o.m.text);
   return 0;
 }
