@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <gsl/gsl_sort.h>
+#include "figure.h"
 #include "lay.h"
 
 static const double PI = 3.14159265358979323846;
@@ -86,6 +87,7 @@ static void lay(Parts *p, long i, const Material *material, const Structure *s, 
   EosPoint point = eos_eval(&material->eos, node.rho, node.u, 0);
   for (int a = 0; a < 3; a++)
     p->x[3 * i + a] = (p->x[3 * i + a] - com[a]) * stretch, p->v[3 * i + a] *= stretch;
+  figure_flatten(&node, p->x + 3 * i);
   p->h[i] *= cbrt(p->rho[i] / node.rho);
   p->rho[i] = node.rho, p->u[i] = node.u, p->p[i] = point.p, p->cs[i] = point.cs;
 }
@@ -123,4 +125,44 @@ int lay_body(Parts *p, const Material *material, const Structure *s, Err *err)
     lay(p, i, material + p->mat[i], s, of[i], inside[of[i]], cbrt(cube[of[i]]), com, r[i]);
   free(r), free(of);
   return n;
+}
+
+/* Particles of one material, from the centre: each layer of it takes them until it has its mass. */
+static void share(const Parts *p, const StructureBody *body, int mat, const size_t *order, int *of)
+{
+  int k = 0;
+  double left;
+  while (k < body->layers && body->layer[k].mat != mat) k++;
+  if (k == body->layers) return;
+  left = body->layer[k].mass;
+  for (long n = 0; n < p->n; n++) {
+    size_t i = order[n];
+    int next = k + 1;
+    if (p->mat[i] != mat) continue;
+    while (next < body->layers && body->layer[next].mat != mat) next++;
+    if (left < 0.5 * p->m[i] && next < body->layers) k = next, left += body->layer[k].mass;
+    of[i] = k, left -= p->m[i];
+  }
+}
+
+int lay_assign(const Parts *p, const StructureBody *body, int *of, Err *err)
+{
+  double com[3], *r = distances(p, com), mass[STRUCTURE_LAYERS] = {0};
+  size_t *order = malloc((size_t)p->n * sizeof *order);
+  int rc = r && order ? 0 : err_set(err, "out of memory");
+  for (long i = 0; i < p->n; i++) of[i] = -1;
+  if (!rc) gsl_sort_index(order, r, 1, (size_t)p->n);
+  for (int k = 0; !rc && k < p->materials; k++) share(p, body, k, order, of);
+  for (long i = 0; !rc && i < p->n; i++) {
+    if (of[i] < 0)
+      rc = err_set(err, "no layer of the body is of '%s'", p->material[p->mat[i]].name);
+    else
+      mass[of[i]] += p->m[i];
+  }
+  for (int k = 0; !rc && k < body->layers; k++)
+    if (!(fabs(mass[k] / body->layer[k].mass - 1) < 0.02))
+      rc = err_set(err, "layer %d has %g kg, and %g kg in /Body", k + 1, mass[k],
+                   body->layer[k].mass);
+  free(r), free(order);
+  return rc;
 }

@@ -17,4 +17,9 @@ int lay_layers(const Parts *p, const Material *material, StructureBody *body, in
  * touched: each layer has its exact mass. */
 int lay_body(Parts *p, const Material *material, const Structure *s, Err *err);
 
+/* lay_assign: the layer of each particle of a body that is compressed already, of [p->n], by
+ * material and, where layers share one, by mass from the centre. Errors: masses that are not those
+ * of body. */
+int lay_assign(const Parts *p, const StructureBody *body, int *of, Err *err);
+
 #endif

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include "figure.h"
 #include "place.h"
 #include "recipe.h"
 #include "rng.h"
@@ -244,6 +245,7 @@ static int fill(const Task *t, Placed *out, Err *err)
                                                                    : sqrt(2)),
                      1. / d);
   if (t->how->seed >= 0 && t->how->placing != PLACE_SHELLS) turn(p, (uint64_t)t->how->seed);
+  for (long i = 0; i < t->n; i++) figure_flatten(&t->at[i], p->x + 3 * i);
   recentre(p, t->mass[t->body->layers]);
   return 0;
 }

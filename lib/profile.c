@@ -15,7 +15,7 @@
   X(rho, "rho", "Density",        "kg/m^3") X(p,  "p",  "Pressure",   "Pa") \
   X(u,   "u",   "InternalEnergy", "J/kg")   X(s,  "s",  "Entropy",    "J/K/kg") \
   X(t,   "T",   "Temperature",    "K")      X(g,  "g",  "Gravity",    "m/s^2") \
-  X(cs,  "cs",  "SoundSpeed",     "m/s")
+  X(cs,  "cs",  "SoundSpeed",     "m/s")    X(f,  "f",  "Flattening", "1")
 /* clang-format on */
 #define AT(MEMBER, ...)                  offsetof(StructureNode, MEMBER),
 #define NAME(MEMBER, COLUMN, DATASET, U) DATASET,
@@ -47,7 +47,7 @@ static void print(const Structure *s, const StructureBody *body, const char *con
     fprintf(f, "# layer %d: %s\n", k + 1, text);
   }
   fprintf(f, "# outside: %.15g Pa\n", body->outer);
-  fprintf(f, "# r[m]\tm[kg]\trho[kg/m^3]\tp[Pa]\tu[J/kg]\ts[J/K/kg]\tT[K]\tg[m/s^2]\tcs[m/s]\t"
+  fprintf(f, "# r[m]\tm[kg]\trho[kg/m^3]\tp[Pa]\tu[J/kg]\ts[J/K/kg]\tT[K]\tg[m/s^2]\tcs[m/s]\tf\t"
              "layer\n");
   for (long i = 0; i < s->n; i++) {
     StructureNode n = s->node[i];

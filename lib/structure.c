@@ -459,6 +459,7 @@ static StructureNode between(const StructureNode *a, const StructureNode *b, int
            e * t * step * (e * da[k] / da[over] - t * db[k] / db[over]);
   n.r = q[RADIUS], n.m = pow(q[THIRD], 3), n.rho = q[RHO], n.p = q[PRESSURE], n.u = q[ENERGY];
   n.g = mean(a->g, b->g, t), n.cs = mean(a->cs, b->cs, t);
+  n.f = mean(a->f, b->f, t);
   n.t = mean(a->t, b->t, t), n.s = mean(a->s, b->s, t);
   n.rho_p = mean(a->rho_p, b->rho_p, t), n.u_p = mean(a->u_p, b->u_p, t);
   return n;

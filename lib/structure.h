@@ -53,6 +53,7 @@ typedef struct {
 typedef struct {
   double r, m, rho, p, u, s, t, g, cs; /* m, kg inside r, kg/m^3, Pa, J/kg, J/K/kg, K, m/s^2, m/s */
   double rho_p, u_p;                   /* drho/dp, du/dp along the layer's law */
+  double f; /* flattening 1 - c/a of the level surface; r is that of the same volume */
   int layer;
 } StructureNode;
 

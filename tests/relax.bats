@@ -27,10 +27,10 @@ CFG
   true_that 'near(r, 6.654223e6, 1e-4) && near(p, 4.11549e11, 1e-3)' \
     r="$(tail -1 p.tsv | cut -f1)" p="$(grep -v '^#' p.tsv | head -1 | cut -f4)"
   # dp = -rho g dr between nodes of one layer, by the trapezoid; p is continuous where the layer changes
-  awk '!/^#/ { if (n++ && $10 == layer && r > 1e6) { d = (p - $4) / ((rho * g + $3 * $8) / 2 * ($1 - r)) - 1
+  awk '!/^#/ { if (n++ && $11 == layer && r > 1e6) { d = (p - $4) / ((rho * g + $3 * $8) / 2 * ($1 - r)) - 1
                  if (d > 1e-3 || d < -1e-3) exit 1 }
-               if (n > 1 && $10 != layer && ($4 / p - 1 > 1e-9 || $4 / p - 1 < -1e-9)) exit 2
-               r = $1; rho = $3; p = $4; g = $8; layer = $10 }' p.tsv
+               if (n > 1 && $11 != layer && ($4 / p - 1 > 1e-9 || $4 / p - 1 < -1e-9)) exit 2
+               r = $1; rho = $3; p = $4; g = $8; layer = $11 }' p.tsv
 }
 
 @test "a layered body left alone stays at rest and keeps its radius and layer masses" {
@@ -62,6 +62,72 @@ CFG
     END { q = 2 * atan2(0, -1) / (l / i) / 21600; exit !(q > 0.98 && q < 1.02) }'
 }
 
+@test "a body at rest is recognised; one that is only placed, or stirred, is not" {
+  mksphere -n 400 --mass 1e23 --layer rock.cfg --hydrostatic -o placed.h5
+  relax --proof 0 -o r.h5 placed.h5 2>said
+  grep -q '^relax: damped run' said
+  relax -o again.h5 r.h5 2>said
+  grep -q '^relax: at rest already' said
+  ! grep -q 'damped run\|proof' said
+  [ "$(field r.h5 Coordinates | md5sum)" = "$(field again.h5 Coordinates | md5sum)" ] || {
+    paste <(field r.h5 Coordinates) <(field again.h5 Coordinates) | awk '{ d = $1 - $2; if (d > 1 || d < -1) exit 1 }'; }
+  relax --again --max-time 100s --proof 0 -o x.h5 r.h5 2>said
+  grep -q '^relax: damped run' said
+}
+
+@test "what flies off is removed and reported; momentum, spin that nobody asked for and damage go" {
+  mksphere -n 400 --mass 1e23 --layer rock.cfg --hydrostatic -o b.h5
+  # one particle at twice the escape speed, all moving on and turning a little (8e-6 v_esc at the surface)
+  without Velocities b.h5 c.h5
+  paste <(field b.h5 ParticleIDs) <(field b.h5 Coordinates 3) |
+    awk '{ v = $1 == 0 ? 0.02 : 0; print 100 - 1e-8*$3 + v*$2, 50 + 1e-8*$2 + v*$3, v*$4 }' | put c.h5 Velocities 3
+  h5copy -i b.h5 -o c.h5 -s /Body -d /Body
+  relax --max-time 500s --proof 0 -o r.h5 c.h5 2>said || { cat said; false; }
+  grep -q '1 particles, .* kg, were ejected' said
+  [ "$(field r.h5 ParticleIDs | wc -l)" = $(($(field b.h5 ParticleIDs | wc -l) - 1)) ]
+  paste <(field r.h5 Masses) <(field r.h5 Coordinates 3) <(field r.h5 Velocities 3) | awk '
+    { px += $1*$5; py += $1*$6; pz += $1*$7; x += $1*$2; l += $1*($2*$6 - $3*$5); m += $1; i += $1*($2*$2 + $3*$3) }
+    END { exit !((px*px + py*py + pz*pz)/(m*m) < 1e-12 && (x/m)^2 < 1 && (l/i)^2 < 1e-24) }'
+}
+
+@test "a spinning body: the figure of equilibrium, its flattening kept, the period as asked" {
+  mksphere -n 800 --mass 1e23 --layer rock.cfg --hydrostatic --spin 4h -o b.h5 2>said
+  f=$(sed -n 's/.*flattening \([^ ]*\) at the surface.*/\1/p' said)
+  true_that 'f > 0.05 && f < 0.5' f="$f"
+  relax --proof 0 -o r.h5 b.h5 2>said
+  true_that 'near(p, 14400, 0.03)' p="$(number r.h5 /Body/MeasuredPeriod0)"
+  # second moments: <z^2>/<x^2> = (1 - f)^2 of similar spheroids; those inside are less flat
+  paste <(field r.h5 Masses) <(field r.h5 Coordinates 3) | awk -v f="$f" '{ x += $1*($2*$2 + $3*$3)/2; z += $1*$4*$4 }
+    END { g = 1 - sqrt(z/x); exit !(g > 0.75*f && g < 1.1*f) }'
+}
+
+@test "a run that is stopped goes on from its checkpoint to the same result" {
+  mksphere -n 300 --mass 1e23 --layer rock.cfg:1 -o b.h5
+  relax --proof 0 --set gravity.method=direct -o whole.h5 b.h5
+  for t in 0.3 0.4 0.6 1 2 4 8 16 32; do
+    if timeout -s TERM $t relax --proof 0 --set gravity.method=direct --checkpoint c.h5 -o r.h5 b.h5 2>said; then break; fi
+    [ -e c.h5 ] || continue # not even begun
+    bad 1 "checkpoint of another body or other settings" relax --radial --set gravity.method=direct --checkpoint c.h5 b.h5
+    stopped=1
+  done
+  [ -z "$stopped" ] || grep -q "goes on from 'c.h5'" said
+  [ ! -e c.h5 ]
+  cmp <(field whole.h5 Coordinates) <(field r.h5 Coordinates)
+}
+
+@test "shells and integration find one structure; other densities, energies, frictions; a fluid has no stress" {
+  mksphere -n 300 --mass 1e23 --layer rock.cfg:1 -o b.h5
+  true_that 'near(a, b, 1e-5)' a="$(relax --profile-only --method shells --nodes 200 b.h5 | tail -1 | cut -f1)" \
+    b="$(relax --profile-only b.h5 | tail -1 | cut -f1)"
+  for how in "--set density=sum" "--set density=miscible" "--freeze energy" "--freeze nothing" "--radial --rigid"; do
+    relax $how --max-time 2000s --proof 0 -o r.h5 b.h5 2>said
+    true_that 'd < 0.15' d="$(sed -n 's/.*off the profile by \([^ ]*\) rms.*/\1/p' said)"
+  done
+  [ -z "$(field r.h5 Velocities | grep -v '^0$\|^-0$')" ]
+  mksphere -n 300 --mass 9e20 --layer basalt | relax --fluid --max-time 500s --proof 0 -o r.h5
+  [ -z "$(field r.h5 DeviatoricStress | grep -v '^0$')" ]
+}
+
 @test "bad input: one line each" {
   mksphere -n 100 --mass 1e20 --layer basalt:1 >b.h5
   bad 1 "cannot open 'none.h5'" relax none.h5
@@ -70,7 +136,10 @@ CFG
   bad 2 "damping" relax --damping 0s b.h5
   bad 2 "unknown" relax --set gravity.tehta=1 b.h5
   bad 2 "max-time" relax --max-time 3kg b.h5
-  relax --proof 0 -o r.h5 b.h5
-  bad 1 "not as mksphere makes it" relax -o rr.h5 r.h5
+  bad 2 "proof" relax --proof -1s b.h5
+  bad 2 "'cold'" relax --freeze cold b.h5
+  mksphere -n 100 --mass 1e23 --layer basalt --hydrostatic -o b.h5
+  without Nothing b.h5 c.h5 # neither a recipe nor layers that can be seen
+  bad 1 "/Body does not say its layers" relax -o rr.h5 c.h5
   [ ! -e rr.h5 ]
 }

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <gsl/gsl_sort.h>
 #include "errors.h"
+#include "lib/figure.h"
 #include "lib/ngb.h"
 #include "physics/kernel.h"
 
@@ -26,19 +27,22 @@ static void visit(long j, double r2, void *data)
   }
 }
 
-static double radius(const Parts *p, long i)
+/* Distance from the centre; of a body that spins, the mean radius of the level surface. */
+static double radius(const Parts *p, const Structure *s, long i)
 {
-  return sqrt(pow(p->x[3 * i], 2) + pow(p->x[3 * i + 1], 2) + pow(p->x[3 * i + 2], 2));
+  const double *x = p->x + 3 * i;
+  return s ? figure_level(s, hypot(x[0], x[1]), x[2])
+           : sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
 }
 
 /* SPH density of particle i over that of the structure; *inside: whether there is no edge near. */
 static double density(const Tree *t, const double *x, const Parts *p, const long *order, long i,
-                      double edge, int *inside)
+                      double depth, int *inside)
 {
   Visit v = {.p = p, .order = order, .h = p->h[i], .mat = p->mat[i]};
   for (int a = 0; a < 3; a++) v.x[a] = p->x[3 * i + a];
   ngb_point(t, x, NULL, v.x, v.h, visit, &v);
-  *inside = !v.mixed && radius(p, i) + v.h < edge;
+  *inside = !v.mixed && v.h < depth;
   return v.sum * kernel_sigma(KERNEL_WENDLAND_C2, p->dimension) / pow(v.h, p->dimension) /
          p->rho[i];
 }
@@ -73,11 +77,11 @@ int errors_measure(Errors *out, const Parts *p, const Material *const *material,
   for (long k = 0; !rc && k < p->n; k++)
     for (int a = 0; a < 3; a++) x[3 * k + a] = p->x[3 * order[k] + a];
   if (!rc) rc = tree_build(&t, p->n, x, NULL, NULL, err);
-  for (long i = 0; !rc && i < p->n; i++) edge = fmax(edge, r[i] = radius(p, i));
+  for (long i = 0; !rc && i < p->n; i++) edge = fmax(edge, r[i] = radius(p, s, i));
 #pragma omp parallel for schedule(dynamic, 256) reduction(+ : off, mean, push)
   for (long i = 0; i < (rc ? 0 : p->n); i++) {
     int inside;
-    double ratio = density(&t, x, p, order, i, edge, &inside);
+    double ratio = density(&t, x, p, order, i, edge - r[i], &inside);
     if (!inside) continue;
 #pragma omp atomic
     out->inside++;

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "errors.h"
+#include "lib/figure.h"
 #include "lib/material.h"
 #include "lib/opt.h"
 #include "lib/place.h"
@@ -176,6 +177,16 @@ static void read_profile(Body *b)
   b->s = &p->s;
 }
 
+/* The figure of a body that spins. */
+static void flatten(Body *b)
+{
+  Structure *s = &b->profile.s;
+  Err err;
+  if (isnan(o.spin) || !b->s || b->r.body.weightless || s->node[s->n - 1].f != 0) return;
+  if (figure_spin(s, &b->r.body, 2 * PI / o.spin, &err)) err_die("%s", err.text);
+  b->r.radius = s->node[s->n - 1].r;
+}
+
 /* Numbers of the materials among the particles', equal ones only once. */
 static void number_materials(Body *b, Parts *names)
 {
@@ -226,6 +237,9 @@ static void summary(const Body *b, const Placed *placed)
   if (b->s && !b->r.body.weightless)
     fprintf(stderr, "mksphere: central pressure %.6g Pa, density %.6g kg/m^3\n", b->s->node[0].p,
             b->s->node[0].rho);
+  if (b->s && b->s->node[b->s->n - 1].f != 0)
+    fprintf(stderr, "mksphere: flattening %.4f at the surface, %.4f in the centre\n",
+            b->s->node[b->s->n - 1].f, b->s->node[0].f);
 }
 
 static void quality(const Body *b, const Parts *p)
@@ -262,6 +276,7 @@ int main(int argc, char **argv)
     read_profile(&b);
   else
     read_layers(&b), solve(&b);
+  flatten(&b);
   number_materials(&b, names);
   how = (Place){(int)o.dimension,
                 o.n,

@@ -5,9 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 #include <gsl/gsl_sort.h>
+#include "../../lib/figure.h"
 #include "../../lib/group.h"
 #include "../../lib/unit.h"
 #include "measure.h"
+
+int measure_quiet(const Measure *m) { return m->high < 0.01 && m->balance < 1e-5; }
 
 void measure_settle(Parts *p)
 {
@@ -21,9 +24,12 @@ void measure_settle(Parts *p)
     for (int d = 0; d < 3; d++) p->x[3 * i + d] -= x[d] / mass, p->v[3 * i + d] -= v[d] / mass;
 }
 
-/* r and v of particle i in the frame of g; returns |r|. */
-static double place(const Parts *p, const Group *g, long i, double v[3])
+/* Velocity of particle i in the frame of g; returns |r|, and in *level the mean radius of its level
+ * surface. */
+static double place(const Parts *p, const Structure *s, const Group *g, long i, double v[3],
+                    double *level)
 {
+  double w2 = 0, wr = 0, r2 = 0, high;
   double r[3], spin[3];
   for (int d = 0; d < 3; d++) r[d] = p->x[3 * i + d] - g->x[d];
   for (int d = 0; d < 3; d++) {
@@ -31,7 +37,11 @@ static double place(const Parts *p, const Group *g, long i, double v[3])
     spin[d] = g->omega[e] * r[f] - g->omega[f] * r[e];
     v[d] = p->v[3 * i + d] - g->v[d] - spin[d];
   }
-  return sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
+  for (int d = 0; d < 3; d++)
+    r2 += r[d] * r[d], w2 += g->omega[d] * g->omega[d], wr += g->omega[d] * r[d];
+  high = w2 > 0 ? wr / sqrt(w2) : 0;
+  *level = figure_level(s, sqrt(fmax(0, r2 - high * high)), high);
+  return sqrt(r2);
 }
 
 /* The profile at r, or where the layer begins or ends when r lies outside of it. */
@@ -46,8 +56,8 @@ static void sums(const Parts *p, const Structure *s, const int *layer, const Gro
 {
   double kinetic = 0, off = 0, centre = 0, want = 0, v[3];
   for (long i = 0; i < p->n; i++) {
-    double r = place(p, g, i, v), v2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-    StructureNode at = within(s, layer[i], r);
+    double level, r = place(p, s, g, i, v, &level), v2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    StructureNode at = within(s, layer[i], level);
     speed[i] = sqrt(v2);
     kinetic += 0.5 * p->m[i] * v2;
     off += pow(p->rho[i] / at.rho - 1, 2);

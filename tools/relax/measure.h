@@ -20,6 +20,9 @@ typedef struct {
 int measure_body(const Parts *p, const Structure *s, const int *layer, double spacing, Measure *out,
                  Err *err);
 
+/* measure_quiet: 99.9 % of the speeds below 1 % of vesc, K/|W| below 1e-5. */
+int measure_quiet(const Measure *m);
+
 /* measure_settle: takes the mean velocity off, moves the centre of mass to 0; keeps a spin. */
 void measure_settle(Parts *p);
 
