@@ -98,6 +98,22 @@ long group_rank(const Parts *p, int32_t *id, long groups, long least, Err *err)
   return found;
 }
 
+long group_heavy(const Parts *p, int32_t *id, long groups, double mass, Err *err)
+{
+  double *sum = calloc((size_t)groups + 1, sizeof *sum);
+  long left = groups, *order = malloc((size_t)(p->n + 1) * sizeof *order);
+  if (!sum || !order || group_order(p, order, err)) {
+    free(sum), free(order);
+    return err_set(err, "out of memory for %ld particles", p->n);
+  }
+  for (long o = 0; o < p->n; o++) sum[id[order[o]]] += p->m[order[o]];
+  while (left > 0 && sum[left] < mass) left--;
+  for (long i = 0; i < p->n; i++)
+    if (id[i] > left) id[i] = 0;
+  free(sum), free(order);
+  return left;
+}
+
 int group_lists(const Parts *p, const int32_t *id, long groups, long **start, long **list, Err *err)
 {
   long *order = malloc((size_t)(p->n + 1) * sizeof *order);
@@ -386,13 +402,10 @@ void group_orbit_row(FILE *f, const Group *g, const GroupCentre *c)
     const double l = r[b] * v[d] - r[d] * v[b];
     up += l * c->axis[a], l2 += l * l, axis2 += c->axis[a] * c->axis[a];
   }
-  const double lean = up / sqrt(l2 * axis2); /* nan without an axis */
-  fprintf(f, "\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g", o.e, o.mu / o.beta, o.rp, o.ra,
-          180 / PI *
-              acos(lean > 1    ? 1
-                   : lean < -1 ? -1
-                               : lean),
-          o.vinf, group_roche(c->mass, g->rho));
+  double lean = up / sqrt(l2 * axis2); /* nan without an axis */
+  if (fabs(lean) > 1) lean = lean > 0 ? 1 : -1;
+  cell(f, o.e), cell(f, o.mu / o.beta), cell(f, o.rp), cell(f, o.ra);
+  cell(f, 180 / PI * acos(lean)), cell(f, o.vinf), cell(f, group_roche(c->mass, g->rho));
 }
 
 /* b/a and c/a of the ellipsoid with these principal moments: a_k^2 ~ I_1 + I_2 + I_3 - 2 I_k. */

@@ -65,6 +65,10 @@ int group_order(const Parts *p, long *order, Err *err);
  * are left, or -1. */
 long group_rank(const Parts *p, int32_t *id, long groups, long least, Err *err);
 
+/* group_heavy: drops those lighter than mass [kg] of groups ranked as group_rank does (id becomes
+ * 0); returns how many are left, or -1. */
+long group_heavy(const Parts *p, int32_t *id, long groups, double mass, Err *err);
+
 /* group_lists: particles with id[i] = k in 1..groups are list[start[k] .. start[k+1]-1], by
  * ascending particle id; malloc'ed. */
 int group_lists(const Parts *p, const int32_t *id, long groups, long **start, long **list,

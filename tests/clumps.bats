@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # clumps on two spheres just below and just above their escape speed, and what goes wrong.
 
+load h5
+
 setup_file() {
   cd "$BATS_FILE_TMPDIR"
   mksphere -n 1500 --mass 9e20 --layer basalt:0.7 --layer ice:0.3 -o a.h5
@@ -49,6 +51,30 @@ column() {
   fof ids.h5 >/dev/null # the field is carried along
 }
 
+@test "a campaign's row: two bodies that pass" {
+  clumps --campaign row fast.h5 >table
+  value() { awk -F'\t' -v name="$1" '/^#/ { for (k = 1; k <= NF; k++) if (index($k, name " [") == 1) at = k } !/^#/ { print $at }' row; }
+  [ "$(wc -l <row)" = 2 ]
+  true_that 'near(a, 9e20, 1e-8) && near(b, 3e20, 1e-8) && near(c, 0.75, 1e-8)' a="$(value M_LR)" b="$(value M_SLR)" c="$(value M_LR/M)"
+  true_that 'abs(xi) < 1e-9 && abs(s) < 1e-9 && abs(m) < 1e10' xi="$(value xi)" s="$(value stripped_1)" m="$(value M_unbound)"
+  [ "$(value xi_ice)" = nan ] # the impactor has none
+  # 1.01 v_esc at 40 degrees: e = hypot((k - 1) sin, cos), k = 2 1.01^2; the deflection of the hyperbola
+  true_that 'near(e, sqrt(((2*1.01^2 - 1)*sin(a))^2 + cos(a)^2), 1e-3)' e="$(value e)" a=0.6981317
+  true_that 'near(sin(d * 3.14159265 / 360), 1 / e, 1e-6)' d="$(value deflection)" e="$(value e)"
+  clumps --campaign row slow.h5 >table
+  [ "$(value deflection)" = nan ]
+}
+
+@test "the gate of the virial, the smallest mass" {
+  clumps --max-virial 3 fast.h5 >table
+  [ "$(grep -vc '^#' table)" = 0 ] && grep -q 'above --max-virial: not searched' table
+  k=$(sed -n 's/.*k_vir of the system \([^ ,]*\).*/\1/p' table)
+  clumps --max-virial "$(awk -v k="$k" 'BEGIN { print 1.01 * k }')" fast.h5 >table
+  [ "$(grep -vc '^#' table)" = 2 ]
+  clumps --min-mass 4e20 -o ids.h5 fast.h5 >table
+  [ "$(grep -vc '^#' table)" = 1 ] && [ "$(field ids.h5 ClumpID | sort -u | tr '\n' ' ')" = "0 1 " ]
+}
+
 @test "nothing bound: a table without rows" {
   run clumps --min-particles 5000 fast.h5
   [ "$status" = 0 ]
@@ -73,6 +99,9 @@ fails() {
   fails 1 "No space left" bash -c 'clumps fast.h5 >/dev/full'
   fails 2 "name a file" clumps -o - fast.h5
   fails 2 "--min-particles" clumps -n 1 fast.h5
+  fails 2 "--max-virial" clumps --max-virial 0 fast.h5
+  fails 2 "name a file" clumps -C - fast.h5
+  fails 1 "" clumps -C no/such/folder/row fast.h5
   fails 2 "--theta" clumps --theta 2 fast.h5
   fails 2 "kick" clumps --method kick fast.h5
 }

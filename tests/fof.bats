@@ -98,6 +98,15 @@ fates() { placed "$@" && fof placed.h5 >table && column fate | tr '\n' ' '; }
   [ "${#lines[@]}" = 3 ]
 }
 
+@test "a density floor per material, a fixed length, a smallest mass" {
+  [ "$(fof --min-density ice:2000 two.h5 | grep -v '^#')" = "$(fof --ignore ice two.h5 | grep -v '^#')" ]
+  [ "$(fof --min-density 2g/cc --min-density ice:0.5rho0 two.h5 | grep -v '^#')" = "$(fof two.h5 | grep -v '^#')" ]
+  # the spacing is 71 km (2000 particles in 501 km, 700 in 299 km: 54 km): both whole, or all single
+  [ "$(fof --length 90km two.h5 | grep -v '^#')" = "$(fof two.h5 | grep -v '^#')" ]
+  [ "$(fof --length 10km two.h5 | grep -vc '^#')" = "$(field two.h5 ParticleIDs | wc -l)" ]
+  [ "$(fof --min-mass 4e20 two.h5 | grep -vc '^#')" = 1 ]
+}
+
 @test "ids are written, and the same command gives the same bytes for any number of threads" {
   OMP_NUM_THREADS=1 fof -o ids1.h5 two.h5 >t1
   OMP_NUM_THREADS=3 fof -o ids2.h5 two.h5 >t2
@@ -137,6 +146,8 @@ fails() { # fails STATUS TEXT COMMAND...: one line that contains the text
   fails 1 "" fof -o no/such/folder/a.h5 two.h5
   fails 1 "2kg" fof --min-density 2kg two.h5
   fails 2 "--link must be positive" fof --link 0 two.h5
+  fails 2 "exclude each other" fof --link 1 --length 3km two.h5
+  fails 1 "no material 'basal'" fof --min-density basal:3 two.h5
   fails 2 "--min-particles" fof --min-particles 0 two.h5
   fails 2 "name a file" fof -o - two.h5
 }

@@ -177,6 +177,11 @@ static void ranks_and_lists(void **state)
   assert_int_equal(group_lists(p, id, 5, &start, &list, NULL), 0);
   assert_true(start[1] == 0 && start[2] == 1 && start[3] == 3 && start[6] == 7);
   assert_true(list[0] == 2 && list[1] == 4 && list[2] == 3 && list[3] == 1 && list[4] == 0);
+  int32_t heavy[8];
+  memcpy(heavy, id, sizeof id);
+  assert_int_equal(group_heavy(p, heavy, 5, 2, NULL), 4); /* masses 5 2 2 2 1 */
+  assert_true(heavy[2] == 1 && heavy[0] == 3 && heavy[7] == 4 && heavy[6] == 0 && heavy[5] == 0);
+  assert_int_equal(group_heavy(p, heavy, 4, 6, NULL), 0);
   assert_int_equal(group_rank(p, id, 5, 2, NULL), 2); /* single particles go */
   assert_true(id[3] == 1 && id[0] == 2 && id[2] == 0 && id[7] == 0);
   free(start), free(list), part_free(p);
@@ -255,6 +260,7 @@ int main(void)
       cmocka_unit_test(rigid_rotation), cmocka_unit_test(composition),
       cmocka_unit_test(invariances),    cmocka_unit_test(uniform_sphere),
       cmocka_unit_test(one_particle),   cmocka_unit_test(ranks_and_lists),
-      cmocka_unit_test(two_bodies),     cmocka_unit_test(columns)};
+      cmocka_unit_test(two_bodies),     cmocka_unit_test(orbits),
+      cmocka_unit_test(columns)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

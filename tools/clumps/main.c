@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include "campaign.h"
 #include "lib/clump.h"
 #include "lib/group.h"
 #include "lib/opt.h"
@@ -11,10 +12,10 @@
 #include "lib/unit.h"
 
 static struct {
-  const char *method, *level, *out;
-  double link, theta;
+  const char *method, *level, *campaign, *out;
+  double link, theta, mass, virial;
   long least;
-} arg;
+} arg = {.virial = INFINITY};
 
 static const Opt opts[] = {
     {"method", 'm', OPT_CHOICE, "potential", "potential|grow",
@@ -22,29 +23,37 @@ static const Opt opts[] = {
     {"criterion", 'c', OPT_CHOICE, "kinetic", "kinetic|thermal|enthalpy",
      "bound when v^2/2 + phi, + u, + p/rho is negative", &arg.level},
     {"min-particles", 'n', OPT_INT, "20", "N", "smallest body", &arg.least},
+    {"min-mass", 'M', OPT_REAL, "0", "kg", "and in mass", &arg.mass},
+    {"max-virial", 'v', OPT_REAL, NULL, "1",
+     "search nothing while -2 E_kin/E_pot of the system is above this (say 3)", &arg.virial},
     {"link", 'l', OPT_REAL, "1", "1", "potential: friends when r_ij < link (h_i + h_j)/2",
      &arg.link},
     {"theta", 't', OPT_REAL, "0.7", "1", "opening angle of the gravity tree", &arg.theta},
+    {"campaign", 'C', OPT_TEXT, NULL, "FILE",
+     "write one row: remnants, accretion, stripping, v_inf, deflection", &arg.campaign},
     {"output", 'o', OPT_TEXT, NULL, "FILE", "write the snapshot with ClumpID", &arg.out},
     {0}};
 
-static const OptProgram program = {.name = "clumps",
-                                   .does = "find gravitationally bound bodies",
-                                   .usage = "[options] snapshot.h5 > clumps.tsv",
-                                   .about =
-                                       "One row a body, by descending mass; r and v are relative "
-                                       "to the barycentre of all particles. bound, bound_u, "
-                                       "bound_h: its mass with v^2/2 + phi < 0, v^2/2 + phi + u < "
-                                       "0, v^2/2 + phi + u + p/rho < 0 in its own potential. "
-                                       "Bodies are not merged: parent is the heavier body that "
-                                       "binds it most (two-body energy negative; 0: none), "
-                                       "aggregate numbers the sets of bodies that are connected by "
-                                       "such pairs. Each bound pair is listed above the table. "
-                                       "k_vir = -2 E_kin/E_pot, 1 in equilibrium.",
-                                   .example = "clumps -o with_ids.h5 run/snap_0100.h5",
-                                   .opts = opts,
-                                   .min_inputs = 0,
-                                   .max_inputs = 1};
+static const OptProgram program = {
+    .name = "clumps",
+    .does = "find gravitationally bound bodies",
+    .usage = "[options] snapshot.h5 > clumps.tsv",
+    .about = "One row a body, by descending mass; r and v are relative "
+             "to the barycentre of all particles. bound, bound_u, "
+             "bound_h: its mass with v^2/2 + phi < 0, v^2/2 + phi + u < "
+             "0, v^2/2 + phi + u + p/rho < 0 in its own potential. "
+             "Bodies are not merged: parent is the heavier body that "
+             "binds it most (two-body energy negative; 0: none), "
+             "aggregate numbers the sets of bodies that are connected by "
+             "such pairs. Each bound pair is listed above the table. "
+             "k_vir = -2 E_kin/E_pot, 1 in equilibrium. --campaign: body 0 is the target, "
+             "body 1 the impactor; xi = (M_LR - M_target)/M_impactor, "
+             "stripped_B is the part of body B that is not in the "
+             "remnant that holds most of it.",
+    .example = "clumps -o with_ids.h5 run/snap_0100.h5",
+    .opts = opts,
+    .min_inputs = 0,
+    .max_inputs = 1};
 
 typedef struct {
   Group g;
@@ -98,6 +107,8 @@ static long connect(Body *b, long n)
   return aggregates;
 }
 
+static double virial(const Group *s) { return -2 * s->e_kin / s->e_pot; }
+
 static void print_pairs(const Body *b, long n)
 {
   for (long k = 0; k < n; k++)
@@ -110,16 +121,21 @@ static void print_pairs(const Body *b, long n)
     }
 }
 
+static double bound_mass(const Body *b, long n)
+{
+  double mass = 0;
+  for (long k = 0; k < n; k++) mass += b[k].g.mass;
+  return mass;
+}
+
 static void print(const Parts *p, const char *file, const Body *b, long n, long aggregates,
                   const Group *s)
 {
   char time[64];
-  double mass = 0;
-  for (long k = 0; k < n; k++) mass += b[k].g.mass;
   printf("# %s at %s: %ld bound bodies in %ld aggregates\n", file,
          unit_time_text(p->time, time, sizeof time), n, aggregates);
-  printf("# these hold %.9g kg of %.9g kg; k_vir of the system %.6g\n", mass, s->mass,
-         -2 * s->e_kin / s->e_pot);
+  printf("# these hold %.9g kg of %.9g kg; k_vir of the system %.6g%s\n", bound_mass(b, n), s->mass,
+         virial(s), virial(s) > arg.virial ? ", above --max-virial: not searched" : "");
   print_pairs(b, n);
   printf("# id\tn\tmass [kg]\tr [m]\tv [m/s]\tbound [kg]\tbound_u [kg]\tbound_h "
          "[kg]\taggregate\tparent\tdistance [m]"
@@ -161,6 +177,10 @@ int main(int argc, char **argv)
   if (!(arg.link > 0)) err_usage("--link must be positive");
   if (arg.least < 2) err_usage("--min-particles must be at least 2");
   if (!(arg.theta >= 0 && arg.theta <= 1)) err_usage("--theta must lie in 0..1");
+  if (arg.mass < 0) err_usage("--min-mass must not be negative");
+  if (!(arg.virial > 0)) err_usage("--max-virial must be positive");
+  if (arg.campaign && !strcmp(arg.campaign, "-"))
+    err_usage("--campaign: stdout holds the table: name a file");
   if (arg.out && !strcmp(arg.out, "-")) err_usage("--output: stdout holds the table: name a file");
   Parts *p = snap_read_some(file, arg.out ? NULL : GROUP_FIELDS GROUP_MORE " p", &err);
   if (!p || part_need(p, GROUP_FIELDS, file, &err) || part_check(p, file, &err))
@@ -172,11 +192,19 @@ int main(int argc, char **argv)
     err_die("'%s': %s", file, err.text);
   double *phi = malloc((size_t)p->n * sizeof *phi);
   if (!phi) err_die("'%s': out of memory", file);
-  long n = clump_find(p, &o, p->clump, phi, &err);
+  memset(p->clump, 0, (size_t)p->n * sizeof *p->clump);
+  long n = virial(&system) > arg.virial ? 0 : clump_find(p, &o, p->clump, phi, &err);
+  if (n > 0) n = group_heavy(p, p->clump, n, arg.mass, &err);
   Body *b = n < 0 ? NULL : measure(p, n, phi, system.bodies, &err);
   if (!b) err_die("'%s': %s", file, err.text);
   long aggregates = connect(b, n);
   char *command = opt_command_line(argc, argv);
+  if (arg.campaign) {
+    const Group first[2] = {n > 0 ? b[0].g : system, n > 1 ? b[1].g : system};
+    if (campaign_write(arg.campaign, file, p, first, n > 2 ? 2 : n, bound_mass(b, n), &system,
+                       &err))
+      err_die("%s", err.text);
+  }
   if (arg.out && (part_history(p, command, &err) || snap_write(p, arg.out, 0, &err)))
     err_die("%s", err.text);
   print(p, file, b, n, aggregates, &system);

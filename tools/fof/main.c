@@ -12,15 +12,17 @@
 #include "lib/unit.h"
 
 static struct {
-  double link, damage, survivors, theta;
+  double link, length, damage, mass, survivors, theta;
   const char *out;
   OptList density, ignore;
   long least;
-} arg = {.damage = INFINITY};
+} arg = {.damage = INFINITY, .length = NAN};
 
 static const Opt opts[] = {
     {"link", 'l', OPT_REAL, "1", "1", "friends when r_ij < link (h_i + h_j)/2, h the full support",
      &arg.link},
+    {"length", 'L', OPT_REAL, NULL, "m", "or when r_ij is less than this, the same for all",
+     &arg.length},
     {"min-density", 'd', OPT_LIST, NULL, "DENSITY",
      "leave out lighter particles: 700, 0.7g/cc, 0.75rho0 of each material; of one: ice:500",
      &arg.density},
@@ -28,6 +30,7 @@ static const Opt opts[] = {
      "leave out particles with at least this damage (1: fully damaged)", &arg.damage},
     {"ignore", 'i', OPT_LIST, NULL, "MATERIAL", "leave out a material", &arg.ignore},
     {"min-particles", 'n', OPT_INT, "1", "N", "smallest fragment", &arg.least},
+    {"min-mass", 'M', OPT_REAL, "0", "kg", "and in mass", &arg.mass},
     {"survivors", 's', OPT_REAL, "0.1", "1", "a survivor has this fraction of the largest mass",
      &arg.survivors},
     {"theta", 't', OPT_REAL, "0.7", "1", "opening angle for the gravity of fragments", &arg.theta},
@@ -207,8 +210,25 @@ static void print(const Parts *p, const char *file, const Fragment *f, long n, l
   }
 }
 
+/* All fragments by the links asked for, in p->frag. */
+static long find(Parts *p, const unsigned char *keep, Err *err)
+{
+  if (isnan(arg.length)) return fof_find(p, arg.link, keep, 1, p->frag, err);
+  double *own = p->h, *same = malloc((size_t)p->n * sizeof *same);
+  if (!same) return err_set(err, "out of memory for %ld particles", p->n);
+  for (long i = 0; i < p->n; i++) same[i] = arg.length;
+  p->h = same;
+  long n = fof_find(p, 1, keep, 1, p->frag, err);
+  p->h = own, free(same);
+  return n;
+}
+
 static void check_arguments(void)
 {
+  if (arg.length <= 0) err_usage("--length must be positive");
+  if (!isnan(arg.length) && opt_given(&program, "link"))
+    err_usage("--link and --length exclude each other");
+  if (arg.mass < 0) err_usage("--min-mass must not be negative");
   if (!(arg.link > 0)) err_usage("--link must be positive");
   if (arg.least < 1) err_usage("--min-particles must be at least 1");
   if (arg.survivors < 0 || arg.survivors > 1) err_usage("--survivors must lie in 0..1");
@@ -231,9 +251,10 @@ int main(int argc, char **argv)
   unsigned char *keep = choose(p, &err);
   if (!keep || group_system(&system, p, -1, &err) || part_add(p, "frag", &err))
     err_die("'%s': %s", file, err.text);
-  long all = fof_find(p, arg.link, keep, 1, p->frag, &err);
+  long all = find(p, keep, &err);
   Shell *shell = all < 0 ? NULL : shells(p, p->frag, all, &system, &err);
   long n = shell ? group_rank(p, p->frag, all, arg.least, &err) : -1;
+  if (n > 0) n = group_heavy(p, p->frag, n, arg.mass, &err);
   Fragment *f = n < 0 ? NULL : measure(p, p->frag, n, &system, shell, all, &err);
   if (!f) err_die("'%s': %s", file, err.text);
   for (long k = 0; k < n; k++) judge(f, n, k);
