@@ -185,18 +185,23 @@ int tabulate_breaks(const Eos *eos, int energies, double at[2])
   return energies ? 2 : 1;
 }
 
-void tabulate_error(const struct eos_table *e, const Eos *eos, double *p, double *c)
+double tabulate_error(const struct eos_table *e, const Eos *eos, double *p, double *c)
 {
-  const double *rho = e->data, *y = eos_table_part(e, EOS_TABLE_Y);
+  const double *rho = e->data, *y = eos_table_part(e, EOS_TABLE_Y), bulk = eos_bulk(eos);
+  const double floor = bulk > 0 ? 0.1 * sqrt(bulk / eos_rho0(eos)) : 0;
+  double cells = 0, good = 0;
   *p = *c = 0;
   for (int i = 0; i + 1 < e->nrho; i++)
     for (int j = 0; j + 1 < e->ny; j++) {
-      double r = 0.5 * (rho[i] + rho[i + 1]), u = 0.5 * (y[j] + y[j + 1]);
+      double r = 0.5 * (rho[i] + rho[i + 1]), u = 0.5 * (y[j] + y[j + 1]), off[2];
       EosPoint a, b;
-      if (rho[i] == rho[i + 1] || y[j] == y[j + 1]) continue;
       if (e->heat) u = eos_table_state(e, r, EOS_TABLE_T, u).u;
       a = eos_table(e, r, u, 0), b = eos_eval(eos, r, u, 0);
-      *p = fmax(*p, fabs(a.p - b.p) / (fabs(b.p) + 1e-4 * r * b.cs * b.cs));
-      *c = fmax(*c, fabs(a.cs - b.cs) / b.cs);
+      if (rho[i] == rho[i + 1] || y[j] == y[j + 1] || !(b.cs > floor)) continue;
+      off[0] = fabs(a.p - b.p) / (fabs(b.p) + 1e-4 * fmax(bulk, r * b.cs * b.cs));
+      off[1] = fabs(a.cs / b.cs - 1);
+      *p = fmax(*p, off[0]), *c = fmax(*c, off[1]);
+      cells++, good += off[0] < 1e-4 && off[1] < 1e-4;
     }
+  return cells > 0 ? good / cells : 1;
 }

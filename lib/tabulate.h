@@ -25,8 +25,9 @@ int tabulate_table(Table *t, const struct eos_table *from, const TabulateGrid *g
 /* tabulate_breaks: densities or energies at which a law's slopes jump, ascending; how many. */
 int tabulate_breaks(const Eos *eos, int energies, double at[2]);
 
-/* tabulate_error: the largest deviation of p (over |p| + 1e-4 rho c^2) and of c from a law, in the
- * middle of the cells. */
-void tabulate_error(const struct eos_table *e, const Eos *eos, double *p, double *c);
+/* tabulate_error: the largest deviation of p (over |p| + 1e-4 K, K the larger of rho c^2 and the
+ * bulk modulus at rest) and of c from a law, in the middle of the cells; returns the share of cells
+ * in which both are below 1e-4. Cells at the floor of c are left out. */
+double tabulate_error(const struct eos_table *e, const Eos *eos, double *p, double *c);
 
 #endif
