@@ -118,7 +118,7 @@ near() { awk -v d="$1" 'NF != 2 || $1 / $2 - 1 > d || 1 - $1 / $2 > d {bad = 1} 
   mksphere -n 200 --mass 1e23 --layer ./t.cfg --temperature 500 -o body.h5
   mksphere -n 200 --mass 1e23 --layer iron --temperature 500 -o law.h5
   paste <(relax --profile-only body.h5) <(relax --profile-only law.h5) |
-    awk '!/#/ && NF == 20 {if (NR % 100 == 0) print $3, $13; end = $1 " " $11} END {print end}' | near 1e-6
+    awk '!/#/ {w = NF / 2; if (NR % 100 == 0) print $3, $(3 + w); end = $1 " " $(1 + w)} END {print end}' | near 1e-6
   solver -o run --end 1 --every 1 body.h5
   [ -s run/snap_0001.h5 ]
   rm iron.h5
