@@ -84,6 +84,27 @@ static long cut(LatticeBall *b, long *number, long keys, long want)
   return last;
 }
 
+typedef struct {
+  LatticeVisit *visit;
+  void *to;
+} Pass;
+
+static void pass(void *to, const double x[3], long key)
+{
+  const Pass *p = to;
+  (void)key;
+  p->visit(p->to, x);
+}
+
+void lattice_sites(Lattice lattice, int dimension, double r, LatticeVisit *visit, void *to)
+{
+  Cell c = cell(lattice);
+  Pass p = {visit, to};
+  sites(&c, dimension, 0, r, pass, &p);
+}
+
+double lattice_volume(Lattice lattice, int dimension) { return cell(lattice).volume[dimension]; }
+
 int lattice_ball(LatticeBall *b, Lattice lattice, int dimension, long want, Err *err)
 {
   const double pi = acos(-1), ball[4] = {0, 2, pi, 4 * pi / 3};

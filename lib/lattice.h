@@ -35,4 +35,10 @@ void lattice_free(LatticeBall *ball);
 /* lattice_cut: the number of innermost whole shells whose sites come closest to `want`. */
 long lattice_cut(const LatticeBall *ball, double want);
 
+/* lattice_sites: calls visit for every site within r of the origin, which is one, in the order of
+ * LatticeBall; lengths in units of the spacing. lattice_volume: of a site. */
+typedef void LatticeVisit(void *to, const double x[3]);
+void lattice_sites(Lattice lattice, int dimension, double r, LatticeVisit *visit, void *to);
+double lattice_volume(Lattice lattice, int dimension);
+
 #endif

@@ -380,6 +380,16 @@ static PartExtra *add_extra(Parts *p, const PartExtra *x)
   return y;
 }
 
+double *part_add_extra(Parts *p, const char *name, const char *unit, const char *meaning, Err *err)
+{
+  PartExtra x = {.type = H5T_NATIVE_DOUBLE, .rank = 1, .width = 1, .size = 8, .unit_si = 1};
+  PartExtra *y;
+  snprintf(x.name, sizeof x.name, "%s", name), snprintf(x.unit, sizeof x.unit, "%s", unit);
+  snprintf(x.meaning, sizeof x.meaning, "%s", meaning);
+  if (!(y = add_extra(p, &x))) return err_null(err, "out of memory for field '%s'", name);
+  return (double *)(void *)y->data;
+}
+
 static int select_flaws(Parts *q, const Parts *p, const long *order)
 {
   int64_t *start = part_flaw_start(p);

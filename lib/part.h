@@ -92,6 +92,10 @@ void part_free(Parts *p);
  * unknown name. */
 int part_add(Parts *p, const char *members, Err *err);
 
+/* part_add_extra: a field that the schema does not have, one zeroed double a particle, which every
+ * program carries through; [p->n], NULL without memory. */
+double *part_add_extra(Parts *p, const char *name, const char *unit, const char *meaning, Err *err);
+
 /* part_need: all of these must be there ("nflaw" too); else -1 and "'a.h5' lacks field 'Damage'
  * (made by weibull)". */
 int part_need(const Parts *p, const char *members, const char *file, Err *err);
