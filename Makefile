@@ -137,7 +137,7 @@ check-gpu: all $(filter-out $B/gpu/tests/test_host_%,$(tests:%=$B/gpu/tests/%))
 	@BIN=$(abspath $(BIN)) B=$(abspath $B/gpu) BRECCIA_TEST_DEVICE=cuda tests/run '$(T)'
 
 bench: all
-	@for b in $(benches:%=$B/bench/%); do $$b || exit 1; done
+	@for b in $(benches:%=$B/bench/%); do PATH=$(abspath $(BIN)):$$PATH $$b || exit 1; done
 
 # The same on a GPU: its passes, then whole steps.
 bench-gpu: all $(gpu_benches:%=$B/bench/%)

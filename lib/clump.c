@@ -8,6 +8,7 @@
 #include "clump.h"
 #include "fof.h"
 #include "group.h"
+#include "ngb.h"
 #include "potential.h"
 #include "sort.h"
 #include "unit.h"
@@ -105,24 +106,40 @@ static int judge(Work *w, Err *err)
   return 0;
 }
 
-/* The same for the point mass of the members: M, R, V. A candidate adds its own mass (two-body
- * problem). Who has left, m = 0, is not bound. */
+typedef struct {
+  double mass, x[3], v[3]; /* kg, m, m/s */
+} Point;
+
+static void point_add(Point *c, const Work *w, long k)
+{
+  for (int a = 0; a < 3; a++)
+    c->x[a] += w->m[k] * w->x[3 * k + a], c->v[a] += w->m[k] * w->v[3 * k + a];
+  c->mass += w->m[k];
+}
+
+static void point_end(Point *c)
+{
+  for (int a = 0; a < 3; a++) c->x[a] /= c->mass, c->v[a] /= c->mass;
+}
+
+/* A candidate adds its own mass (two-body problem). Who has left, m = 0, is not bound. */
+static int point_binds(const Point *c, const Work *w, long k)
+{
+  const double d = group_apart(w->x + 3 * k, c->x),
+               mu = UNIT_G * (c->mass + (w->in[k] ? 0 : w->m[k]));
+  return w->m[k] > 0 && d * (0.5 * speed2(w->v + 3 * k, c->v) + w->heat[k]) < mu;
+}
+
+/* The same as judge for the point mass of the members. */
 static int judge_point(Work *w, Err *err)
 {
-  double mass = 0, r[3] = {0}, v[3] = {0};
+  Point c = {0};
   (void)err;
-  for (long k = 0; k < w->n; k++) {
-    if (!w->in[k]) continue;
-    for (int a = 0; a < 3; a++)
-      r[a] += w->m[k] * w->x[3 * k + a], v[a] += w->m[k] * w->v[3 * k + a];
-    mass += w->m[k];
-  }
-  for (int a = 0; a < 3; a++) r[a] /= mass, v[a] /= mass;
+  for (long k = 0; k < w->n; k++)
+    if (w->in[k]) point_add(&c, w, k);
+  point_end(&c);
 #pragma omp parallel for if (w->n >= LARGE)
-  for (long k = 0; k < w->n; k++) {
-    double d = group_apart(w->x + 3 * k, r), mu = UNIT_G * (mass + (w->in[k] ? 0 : w->m[k]));
-    w->next[k] = w->m[k] > 0 && d * (0.5 * speed2(w->v + 3 * k, v) + w->heat[k]) < mu;
-  }
+  for (long k = 0; k < w->n; k++) w->next[k] = (unsigned char)point_binds(&c, w, k);
   return 0;
 }
 
@@ -153,21 +170,88 @@ static long settle(Work *w, int (*rule)(Work *, Err *), Err *err)
   return members(w);
 }
 
-/* The members are the particles nearest to the deepest one: a tenth of the mass, but `least` of
- * them. */
-static int core(Work *w, Err *err)
+/* The members are the candidates nearest to the deepest one, a part of the mass, but `least` of
+ * them; open [n]: who is a candidate still. Returns how many are; if too few, none is a member. */
+static long core(Work *w, const unsigned char *open, const double *depth, double part, Err *err)
 {
   double mass = 0, sum = 0;
-  long low = 0;
-  if (potential_sum(&w->pot, NULL, NULL, w->o->theta, w->phi, err)) return -1;
-  for (long k = 1; k < w->n; k++)
-    if (w->phi[k] < w->phi[low]) low = k;
+  long low = -1, left = 0;
   for (long k = 0; k < w->n; k++)
-    w->key[k] = group_apart(w->x + 3 * k, w->x + 3 * low), mass += w->m[k];
+    if (open[k] && left++ >= 0 && (low < 0 || depth[k] < depth[low])) low = k;
+  memset(w->in, 0, (size_t)w->n);
+  if (left < w->o->least) return left;
+  for (long k = 0; k < w->n; k++) {
+    w->key[k] = open[k] ? group_apart(w->x + 3 * k, w->x + 3 * low) : INFINITY;
+    mass += open[k] ? w->m[k] : 0;
+  }
   if (sort_reals(w->n, w->key, w->order)) return no_memory(w->n, err);
-  for (long k = 0; k < w->n && (sum < CORE * mass || k < w->o->least); k++)
+  for (long k = 0; k < left && (sum < part * mass || k < w->o->least); k++)
     w->in[w->order[k]] = 1, sum += w->m[w->order[k]];
-  return 0;
+  return left;
+}
+
+/* Of the particles list [n] with potential own [n] J/kg: how many are bound at a level, and their
+ * mass [kg]. */
+static long count_bound(const Parts *p, const long *list, long n, const double *own,
+                        ClumpLevel level, double *mass, Err *err)
+{
+  const size_t room = (size_t)n + 1;
+  double *m = malloc(4 * room * sizeof *m), *v = m + n, centre[3];
+  long *order = malloc(room * sizeof *order), bound = 0;
+  if (!m || !order) return free(m), free(order), no_memory(n, err);
+  for (long k = 0; k < n; k++)
+    m[k] = p->m[list[k]], memcpy(v + 3 * k, p->v + 3 * list[k], 3 * sizeof *v);
+  int failed = frame(n, own, m, v, order, centre, err);
+  *mass = 0;
+  for (long k = 0; k < n && !failed; k++)
+    if (0.5 * speed2(v + 3 * k, centre) + heat(p, list[k], level) + own[k] < 0)
+      *mass += m[k], bound++;
+  free(m), free(order);
+  return failed ? -1 : bound;
+}
+
+/* How many of the members would be bound to them alone. */
+static long holds(const Work *w, Err *err)
+{
+  const size_t room = (size_t)members(w) + 1;
+  long *list = malloc(room * sizeof *list), n = 0, bound = -1;
+  double *own = malloc(room * sizeof *own), mass;
+  for (long k = 0; k < w->n && list && own; k++)
+    if (w->in[k]) list[n++] = w->list[k];
+  if (!list || !own) no_memory(n, err);
+  if (list && own && !potential_own(w->p, list, n, w->o->theta, own, err))
+    bound = count_bound(w->p, list, n, own, w->o->level, &mass, err);
+  free(list), free(own);
+  return bound;
+}
+
+/* The first body that the candidates hold, as members: from a core around the deepest, or, as what
+ * is hot holds only as a whole, from more and more around it; then from cores around the deepest
+ * left, each given up when it does not hold: taken [n]. Returns its size, 0: there is none. */
+static long first_body(Work *w, unsigned char *taken, Err *err)
+{
+  const size_t n = (size_t)w->n;
+  unsigned char *open = malloc(n + 1);
+  double *depth = malloc((n + 1) * sizeof *depth), part = CORE;
+  long bound = open && depth ? 0 : no_memory(w->n, err), left = w->n;
+  if (!bound && potential_sum(&w->pot, NULL, NULL, w->o->theta, depth, err)) bound = -1;
+  if (open) memset(open, 1, n);
+  while (bound == 0 && (left = core(w, open, depth, part, err)) >= w->o->least) {
+    bound = holds(w, err);
+    if (bound >= w->o->least) bound = settle(w, judge, err);
+    if (bound < 0 || bound >= w->o->least) break;
+    bound = 0;
+    if (left == w->n && part < 1) {
+      part = fmin(1, 2 * part);
+      continue;
+    }
+    if (part > CORE) core(w, open, depth, part = CORE, err);
+    for (long k = 0; k < w->n; k++)
+      if (w->in[k]) taken[k] = 1, open[k] = 0;
+  }
+  if (bound == 0 && left < w->o->least) memset(taken, 1, n);
+  free(open), free(depth);
+  return left < 0 ? -1 : bound;
 }
 
 /* What is found: the body of each particle and the potential of that body; the frame of each body,
@@ -192,21 +276,22 @@ static int found_more(Found *f, long n, Err *err)
   return frames && stale ? 0 : err_set(err, "out of memory for %ld bodies", f->found + n);
 }
 
-/* One body, `name`, out of the fragment list [n]; its particles, or those of a core that came to
+/* One body, `name`, out of the fragment list [n]; its particles, and those of cores that came to
  * nothing, are not searched again. */
 static int search_fragment(Found *f, const long *list, long n, long name, unsigned char *keep,
                            Err *err)
 {
   Work w;
   if (work_open(&w, f->p, f->o, list, n, err)) return -1;
-  int failed = potential_open(&w.pot, f->p, w.list, n, err) || core(&w, err);
-  for (long k = 0; k < n && !failed; k++)
-    if (w.in[k]) keep[list[k]] = 0;
-  long bound = failed ? -1 : settle(&w, judge, err);
-  for (long k = 0; k < n && bound >= f->o->least; k++)
+  unsigned char *taken = calloc((size_t)n + 1, 1);
+  long bound = taken ? potential_open(&w.pot, f->p, w.list, n, err) : no_memory(n, err);
+  if (!bound) bound = first_body(&w, taken, err);
+  for (long k = 0; k < n && bound >= 0; k++)
+    if (taken[k]) keep[list[k]] = 0;
+  for (long k = 0; k < n && bound > 0; k++)
     if (w.in[k]) keep[list[k]] = 0, f->id[list[k]] = (int32_t)name, f->phi[list[k]] = w.phi[k];
   memcpy(f->frame[name], w.frame, sizeof w.frame), f->stale[name] = !w.fresh;
-  work_close(&w);
+  work_close(&w), free(taken);
   return bound < 0 ? -1 : 0;
 }
 
@@ -358,38 +443,93 @@ static int by_potential(Found *f, Err *err)
   return failed ? -1 : adopt(f, err);
 }
 
-/* The free particles move up; who has left (m = 0) goes. */
-static void close_ranks(Work *w)
+/* Where the particles are, and where each is among the candidates. */
+typedef struct {
+  Work *w;
+  Tree tree;
+  long *order, *at; /* particle of the tree's k-th; its place in w, -1: it has left */
+  double *x;        /* [n][3] m, in the tree's order */
+  long *near, n;    /* places in w of what was found */
+} Places;
+
+static void places_close(Places *s) { tree_free(&s->tree), free(s->order), free(s->x); }
+
+static int places_open(Places *s, Work *w, Err *err)
 {
+  const Parts *p = w->p;
+  const size_t room = (size_t)p->n + 1;
+  *s = (Places){.w = w, .order = malloc(3 * room * sizeof *s->order)};
+  s->x = malloc(3 * room * sizeof *s->x);
+  if (!s->order || !s->x) return places_close(s), no_memory(p->n, err);
+  s->at = s->order + room, s->near = s->at + room;
+  if (tree_order(p->n, p->x, p->id, 0, s->order, err)) return places_close(s), -1;
+  for (long k = 0; k < p->n; k++) memcpy(s->x + 3 * k, p->x + 3 * s->order[k], 3 * sizeof *s->x);
+  for (long k = 0; k < w->n; k++) s->at[w->list[k]] = k;
+  return tree_build(&s->tree, p->n, s->x, NULL, NULL, err) ? places_close(s), -1 : 0;
+}
+
+static void found_near(long j, double r2, void *data)
+{
+  Places *s = data;
+  const long k = s->at[s->order[j]];
+  (void)r2;
+  if (k >= 0) s->near[s->n++] = k;
+}
+
+/* Makes members of the free particles in the seed's support; 0 when they do not hold at all, fewer
+ * than two of them bound to their point mass: then there are no members. */
+static int sow(Places *s, long seed)
+{
+  Work *w = s->w;
+  Point c = {0};
+  long bound = 0;
+  s->n = 0;
+  ngb_point(&s->tree, s->x, NULL, w->x + 3 * seed, w->p->h[w->list[seed]], found_near, s);
+  for (long k = 0; k < s->n; k++) w->in[s->near[k]] = 1, point_add(&c, w, s->near[k]);
+  point_end(&c);
+  for (long k = 0; k < s->n; k++) bound += point_binds(&c, w, s->near[k]);
+  for (long k = 0; k < s->n && bound < 2; k++) w->in[s->near[k]] = 0;
+  return bound >= 2;
+}
+
+static void leave(Places *s, long k) { s->w->m[k] = 0, s->w->in[k] = 0, s->at[s->w->list[k]] = -1; }
+
+/* The free particles move up; who has left (m = 0) goes. */
+static void close_ranks(Places *s)
+{
+  Work *w = s->w;
   long kept = 0;
   for (long k = 0; k < w->n; k++) {
     if (w->m[k] <= 0) continue;
     memmove(w->x + 3 * kept, w->x + 3 * k, 3 * sizeof *w->x);
     memmove(w->v + 3 * kept, w->v + 3 * k, 3 * sizeof *w->v);
-    w->m[kept] = w->m[k], w->heat[kept] = w->heat[k], w->list[kept++] = w->list[k];
+    w->m[kept] = w->m[k], w->heat[kept] = w->heat[k], w->list[kept] = w->list[k];
+    s->at[w->list[kept]] = kept, kept++;
   }
   w->n = kept;
+  memset(w->in, 0, (size_t)kept);
 }
 
 /* Bodies from seeds, the candidates of w in their order: a seed and the free particles in its
- * support. */
-static int grow_bodies(Found *f, Work *w, Err *err)
+ * support. What does not hold leaves as a body does. */
+static int grow_bodies(Found *f, Places *s, Err *err)
 {
+  Work *w = s->w;
   long left = w->n;
   for (long seed = 0; left >= f->o->least && seed < w->n; seed++) {
     if (w->m[seed] <= 0) continue;
-    const double reach = f->p->h[w->list[seed]];
-    for (long k = 0; k < w->n; k++)
-      w->in[k] = w->m[k] > 0 && group_apart(w->x + 3 * k, w->x + 3 * seed) < reach;
-    const long n = settle(w, judge_point, err);
+    const int holds_some = sow(s, seed);
+    const long n = holds_some ? settle(w, judge_point, err) : 0;
     if (n < 0 || (n >= f->o->least && found_more(f, 1, err))) return -1;
     if (n >= f->o->least) f->stale[++f->found] = 1;
-    for (long k = 0; k < w->n; k++) {
-      if (!w->in[k] && k != seed) continue;
-      if (w->in[k] && n >= f->o->least) f->id[w->list[k]] = (int32_t)f->found;
-      left -= w->m[k] > 0, w->m[k] = 0;
+    for (long k = 0; k < w->n && holds_some; k++) {
+      if (!w->in[k] || k == seed) continue;
+      if (n >= f->o->least) f->id[w->list[k]] = (int32_t)f->found;
+      leave(s, k), left--;
     }
-    if (left < w->n / 2) close_ranks(w), seed = -1;
+    if (n >= f->o->least && w->in[seed]) f->id[w->list[seed]] = (int32_t)f->found;
+    leave(s, seed), left--;
+    if (left < w->n / 2) close_ranks(s), seed = -1;
   }
   return 0;
 }
@@ -404,8 +544,11 @@ static int by_growth(Found *f, Err *err)
   if (!failed && sort_reals(n, f->phi, deep)) failed = no_memory(n, err);
   for (long k = 0; k < n && !failed; k++) deep[k] = order[deep[k]];
   Work w;
-  if (!failed && !(failed = work_open(&w, f->p, f->o, deep, n, err)))
-    failed = grow_bodies(f, &w, err), work_close(&w);
+  Places s;
+  if (!failed && !(failed = work_open(&w, f->p, f->o, deep, n, err))) {
+    if (!(failed = places_open(&s, &w, err))) failed = grow_bodies(f, &s, err), places_close(&s);
+    work_close(&w);
+  }
   free(order);
   return failed;
 }
@@ -443,22 +586,14 @@ long clump_find(const Parts *p, const ClumpOptions *o, int32_t *id, double *phi,
 int clump_levels(const Parts *p, const long *list, long n, const double *phi,
                  double mass[CLUMP_LEVELS], Err *err)
 {
-  const size_t room = (size_t)n + 1;
-  double *own = malloc(5 * room * sizeof *own), centre[3];
-  long *order = malloc(room * sizeof *order);
-  if (!own || !order) return free(own), free(order), no_memory(n, err);
-  double *m = own + n, *v = m + n;
-  for (long k = 0; k < n; k++) {
-    own[k] = phi[list[k]], m[k] = p->m[list[k]];
-    memcpy(v + 3 * k, p->v + 3 * list[k], 3 * sizeof *v);
+  double *own = malloc(((size_t)n + 1) * sizeof *own);
+  long bound = own ? 0 : no_memory(n, err);
+  for (long k = 0; k < n && own; k++) own[k] = phi[list[k]];
+  for (int l = 0; l < CLUMP_LEVELS && bound >= 0; l++) {
+    mass[l] = NAN;
+    if ((l < CLUMP_THERMAL || p->u) && (l < CLUMP_ENTHALPY || (p->p && p->rho)))
+      bound = count_bound(p, list, n, own, l, &mass[l], err);
   }
-  int failed = frame(n, own, m, v, order, centre, err);
-  for (int l = 0; l < CLUMP_LEVELS && !failed; l++) {
-    int there = (l < CLUMP_THERMAL || p->u) && (l < CLUMP_ENTHALPY || (p->p && p->rho));
-    mass[l] = there ? 0 : NAN;
-    for (long k = 0; k < n && there; k++)
-      if (0.5 * speed2(v + 3 * k, centre) + heat(p, list[k], l) + own[k] < 0) mass[l] += m[k];
-  }
-  free(own), free(order);
-  return failed ? -1 : 0;
+  free(own);
+  return bound < 0 ? -1 : 0;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Gravitationally bound bodies. Two methods:
- * potential: a friends-of-friends fragment is unbound layer by layer: from the core around its
- * deepest particle, members are those of the fragment with e_j < 0 in the potential of the current
+ * potential: a friends-of-friends fragment is unbound layer by layer: from a core around its
+ * deepest particle (larger and larger ones, as what is hot holds only as a whole), members are those of the fragment with e_j < 0 in the potential of the current
  * members and in the frame of their most bound tenth, until nothing changes; what is left is
  * searched again, and at the end loose particles join the body that binds them most. A moon that is
  * a fragment of its own stays a body of its own. grow: 004 fig. 2.29 in batch form: from the
