@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # eos: values, grids, pairs, and every mistake in one line with its exit code.
 
+load h5
+
 bad() { # bad CODE MESSAGE ARGUMENTS...
   local code=$1 message=$2
   shift 2
@@ -121,6 +123,10 @@ near() { awk -v d="$1" 'NF != 2 || $1 / $2 - 1 > d || 1 - $1 / $2 > d {bad = 1} 
     awk '!/#/ {w = NF / 2; if (NR % 100 == 0) print $3, $(3 + w); end = $1 " " $(1 + w)} END {print end}' | near 1e-6
   solver -o run --end 1 --every 1 body.h5
   [ -s run/snap_0001.h5 ]
+  eos fill body.h5 -o full.h5 # 500 K and one entropy at the start, of the table as of the law
+  eos fill law.h5 | eos fill -o both.h5
+  for file in full both; do field $file.h5 Temperature | awk '{print $1, 500}' | near 1e-5; done
+  paste <(field full.h5 Entropy) <(field both.h5 Entropy) | near 1e-4
   rm iron.h5
   run solver -o run2 --end 1 --every 1 body.h5
   [ "$status" = 1 ]

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* eos: pressure and sound speed of a material at densities, or pressures, and energies,
- * temperatures or entropies, from lists, grids or pairs on stdin; isentropes and Hugoniot curves;
- * `eos table` is in make.c. All values are read and checked before the first line is printed. */
+ * temperatures or entropies, from lists, grids or pairs on stdin; isentropes and Hugoniot curves.
+ * `eos table` is in make.c, `eos fill` in fill.c. All values are read and all states found before
+ * the first line is printed. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,6 +12,7 @@
 #include "../../lib/thermal.h"
 #include "../../lib/unit.h"
 #include "curve.h"
+#include "fill.h"
 #include "make.h"
 #include "values.h"
 
@@ -39,11 +41,12 @@ static const Opt OPTS[] = {
 static const OptProgram PROGRAM = {
     "eos",
     "print pressure and sound speed of a material",
-    "--material NAME --rho VALUES --u VALUES | --material NAME - < pairs | table ...",
+    "--material NAME --rho VALUES --u VALUES | --material NAME - < pairs | table ... | fill ...",
     "VALUES are numbers with or without unit separated by commas; LOW:HIGH:N stands for N evenly "
     "spaced ones, log:LOW:HIGH:N for logarithmically spaced ones. Every density is combined with "
     "every energy. With - as input, pairs of density and energy are read from stdin, one a line; "
-    "empty lines and lines that begin with # are skipped. eos table makes and converts tables.",
+    "empty lines and lines that begin with # are skipped. eos table makes and converts tables; "
+    "eos fill adds temperature, entropy and phase to a snapshot.",
     "eos --material basalt --rho 2.7g/cc,3000 --u 0:10MJ/kg:5\n"
     "eos --material ice --rho log:1:2000:40 --u 1e6 > isochores.tsv\n"
     "eos --material basalt --hugoniot 1km/s:10km/s:10",
@@ -227,6 +230,7 @@ int main(int argc, char **argv)
   Material m;
   Rows rows;
   if (argc > 1 && !strcmp(argv[1], "table")) return make_main(argc - 1, argv + 1);
+  if (argc > 1 && !strcmp(argv[1], "fill")) return fill_main(argc, argv);
   input = opt_parse(&PROGRAM, argc, argv, &inputs);
   if (o.list && (o.material || o.rho || o.u || inputs)) err_usage("--list goes alone");
   if (o.list) {
