@@ -261,6 +261,24 @@ static void outside(void **state)
   table_law_free(&e.table), table_free(&t);
 }
 
+/* The phase is that of the nearest node. */
+static void phase(void **state)
+{
+  Table t = table_of(2, 1);
+  Eos e;
+  (void)state;
+  for (int i = 0; i < t.nrho * t.ny; i++) t.field[TABLE_PHASE][i] = i;
+  e = tabulated_eos(&t);
+  for (int i = 1; i < t.nrho - 1; i++)
+    for (int j = 1; j < t.ny - 1; j++)
+      for (int side = -1; side < 2; side++) {
+        double rho = t.rho[i] + side * 0.4 * (t.rho[i] - t.rho[i - 1]);
+        double T = t.y[j] - side * 0.4 * (t.y[j] - t.y[j - 1]);
+        assert_int_equal(eos_table_state(&e.table, rho, EOS_TABLE_T, T).phase, i * t.ny + j);
+      }
+  table_law_free(&e.table), table_free(&t);
+}
+
 /* rho0 of tables with and without tension; a gas has none. */
 static void at_rest(void **state)
 {
@@ -453,6 +471,7 @@ int main(void)
       cmocka_unit_test(speed),
       cmocka_unit_test(continuity),
       cmocka_unit_test(outside),
+      cmocka_unit_test(phase),
       cmocka_unit_test(at_rest),
       IN_FOLDER(round_trips),
       IN_FOLDER(pairs),
