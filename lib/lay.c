@@ -65,6 +65,17 @@ static int layers_of(const Parts *p, const Material *material, const double *r,
   return n;
 }
 
+/* A ball of whole shells does not reach beyond the radius of its volume. */
+static int is_ball(const Parts *p, const double *r, Err *err)
+{
+  double far = 0, volume = 0;
+  for (long i = 0; i < p->n; i++) far = fmax(far, r[i]), volume += p->m[i] / p->rho[i];
+  if (far <= 1.1 * cbrt(volume / (4 * PI / 3))) return 0;
+  return err_set(err,
+                 "the body is not a ball: it reaches %g m out, and has the volume of one of %g m",
+                 far, cbrt(volume / (4 * PI / 3)));
+}
+
 int lay_layers(const Parts *p, const Material *material, StructureBody *body, int *of, Err *err)
 {
   double com[3], *r;
@@ -72,7 +83,7 @@ int lay_layers(const Parts *p, const Material *material, StructureBody *body, in
     return err_set(err, "a hydrostatic structure has 3 dimensions, the body %d", p->dimension);
   if (!(r = distances(p, com))) return err_set(err, "out of memory");
   *body = (StructureBody){0};
-  body->layers = layers_of(p, material, r, body->layer, of, err);
+  body->layers = is_ball(p, r, err) ? -1 : layers_of(p, material, r, body->layer, of, err);
   free(r);
   return body->layers;
 }

@@ -60,8 +60,8 @@ static int rest(Task *t, Err *err)
     if (structure_move(l, &anchor[k], body->outer, &at))
       return err_set(err, "layer %d has no state at %g Pa", k + 1, body->outer);
     point = eos_eval(&l->material->eos, at.rho, at.u, 0);
-    t->rest[k] =
-        (StructureNode){.rho = at.rho, .u = at.u, .p = point.p, .cs = point.cs, .layer = k};
+    t->rest[k] = (StructureNode){
+        .rho = at.rho * (1 - l->pores), .u = at.u, .p = point.p, .cs = point.cs, .layer = k};
   }
   return 0;
 }
@@ -214,6 +214,17 @@ static void recentre(Parts *p, double mass)
     for (int a = 0; a < 3; a++) p->x[3 * i + a] -= com[a];
 }
 
+/* The field Distention, where any layer has pores. */
+static int add_pores(const Task *t, Parts *p, Err *err)
+{
+  double most = 0, *d;
+  for (int k = 0; k < t->body->layers; k++) most = fmax(most, t->body->layer[k].pores);
+  if (most == 0) return 0;
+  if (!(d = part_add_extra(p, "Distention", "1", "solid over bulk density", err))) return -1;
+  for (long i = 0; i < p->n; i++) d[i] = 1 / (1 - t->body->layer[t->at[i].layer].pores);
+  return 0;
+}
+
 /* Masses scaled to those of the layers, states, supports for the wanted number of neighbours. */
 static int fill(const Task *t, Placed *out, Err *err)
 {
@@ -247,7 +258,7 @@ static int fill(const Task *t, Placed *out, Err *err)
   if (t->how->seed >= 0 && t->how->placing != PLACE_SHELLS) turn(p, (uint64_t)t->how->seed);
   for (long i = 0; i < t->n; i++) figure_flatten(&t->at[i], p->x + 3 * i);
   recentre(p, t->mass[t->body->layers]);
-  return 0;
+  return add_pores(t, p, err);
 }
 
 int place_ball(Placed *out, const Place *how, const StructureBody *body, const Structure *s,

@@ -39,6 +39,10 @@ static int state(StructureLayer *l, const char *word, Err *err)
     l->power = 1;
     return unit_parse(word + 6, "1", &l->exponent, err);
   }
+  if (!strncmp(word, "pores=", 6)) {
+    if (unit_parse(word + 6, "1", &l->pores, err)) return -1;
+    return l->pores >= 0 && l->pores < 1 ? 0 : err_set(err, "%s is not in 0 to 1", word);
+  }
   for (int k = 0; equals && k < STRUCTURE_CONTINUOUS; k++)
     if (strlen(names[k]) == (size_t)(equals - word) &&
         !strncmp(word, names[k], (size_t)(equals - word))) {
@@ -48,7 +52,7 @@ static int state(StructureLayer *l, const char *word, Err *err)
       return err_set(err, "%s is negative", word);
     }
   return err_set(
-      err, "'%s' is not u=, s=, T=, T=continuous, isentropic, isothermal or power=EXPONENT", word);
+      err, "'%s' is not u=, s=, T=, T=continuous, isentropic, isothermal, power= or pores=", word);
 }
 
 static int share(Recipe *r, int k, const char *text, Err *err)
@@ -112,7 +116,8 @@ static int radii(const StructureBody *body, int dimension, double *r, Err *err)
   for (int k = 0; k < body->layers; k++) {
     if (structure_move(&body->layer[k], &anchor[k], body->outer, &at))
       return err_set(err, "layer %d has no state at %g Pa", k + 1, body->outer);
-    volume += body->layer[k].mass / at.rho, r[k] = recipe_radius(dimension, volume);
+    volume += body->layer[k].mass / at.rho / (1 - body->layer[k].pores),
+        r[k] = recipe_radius(dimension, volume);
   }
   return 0;
 }
@@ -288,7 +293,8 @@ int recipe_store(Parts *p, const StructureBody *body, Err *err)
     const StructureLayer *l = &body->layer[k];
     if (put(p, k, "Mass", l->mass, err) || put(p, k, "Material", l->mat, err) ||
         put(p, k, ANCHORS[l->anchor], l->at, err) ||
-        put(p, k, "Exponent", l->power ? l->exponent : NAN, err))
+        put(p, k, "Exponent", l->power ? l->exponent : NAN, err) ||
+        put(p, k, "Pores", l->pores > 0 ? l->pores : NAN, err))
       return -1;
   }
   return part_set_number(p, "body", "Layers0", body->layers, err) ||
@@ -310,6 +316,7 @@ int recipe_load(const Parts *p, const Material *material, StructureBody *body, E
     StructureLayer *l = &body->layer[k];
     double mat = get(p, k, "Material");
     int found = 0;
+    l->pores = fmax(0, get(p, k, "Pores"));
     l->mass = get(p, k, "Mass"), l->exponent = get(p, k, "Exponent");
     l->power = !isnan(l->exponent), l->mat = (int)mat;
     for (int a = 0; a <= STRUCTURE_CONTINUOUS && !found; a++)

@@ -208,7 +208,7 @@ static double shoot(double centre, void *task)
     double end = cbrt(inside += b->body->layer[k].mass);
     StructureState state;
     if (structure_move(&b->body->layer[k], &b->anchor[k], fmax(y[1], 0), &state)) return NAN;
-    y[2] = state.rho, y[3] = state.u;
+    y[2] = state.rho * (1 - b->body->layer[k].pores), y[3] = state.u;
     if (b->out) record(b, k, s, y);
     if (k == 0) { /* p = p_c - 2 pi/3 G rho^2 r^2 near the centre; the next order is (r/R)^4 = 1e-16
                      of it */
@@ -357,6 +357,9 @@ static int check(const StructureBody *body, long nodes, Err *err)
     return err_set(err, "layer %d: above it there is no temperature to continue", last + 1);
   for (int k = 0; k <= last; k++)
     if (!(body->layer[k].mass > 0)) return err_set(err, "layer %d has no mass", k + 1);
+  for (int k = 0; k <= last && !body->weightless; k++)
+    if (body->layer[k].pores > 0)
+      return err_set(err, "layer %d has pores: how gravity closes them is not known here", k + 1);
   return 0;
 }
 

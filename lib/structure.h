@@ -41,6 +41,7 @@ typedef struct {
   int anchor;      /* STRUCTURE_ENERGY ... */
   int power;       /* 0: isentropic; else T ~ rho^exponent (0: isothermal) */
   double exponent; /* only with `power` */
+  double pores;    /* volume of pores over the whole; only without gravity */
 } StructureLayer;
 
 typedef struct {

@@ -72,6 +72,11 @@ mass() { field "$1" Masses | awk '{ m += $1 } END { printf "%.15g", m }'; }
   bad 1 "not closed: 4 edges" mkshape --shape mesh --mesh box.obj -l ice
 }
 
+@test "what is no ball is not laid on a structure of shells" {
+  mkshape --size 10km,8km,6km -l basalt -n 300 -o e.h5
+  bad 1 "the body is not a ball" relax e.h5
+}
+
 @test "every mistake is one line" {
   bad 2 "which material" mkshape --size 1,1,1
   bad 2 "needs --size with 3 lengths, not 1" mkshape --size 1 -l ice

@@ -103,6 +103,16 @@ setup() { cd "$BATS_TEST_TMPDIR"; }
   mksphere -n 1500 --mass 5e24kg --layer iron:0.4:T=2000K --layer granite:2000km:u=0 2>&1 | grep -q 'give fewer'
 }
 
+@test "porous layers: bulk density and radius, Distention, and no way to compress them" {
+  mksphere -n 1000 --radius 10km --layer basalt:0.6 --layer ice:0.4:pores=0.25 -o b.h5
+  paste <(field b.h5 MaterialID) <(field b.h5 Density) <(field b.h5 Distention) <(field b.h5 Masses) | awk '
+    { if ($1 ? $2 != 917*0.75 || $3 - 4/3 > 1e-12 || 4/3 - $3 > 1e-12 : $2 != 2700 || $3 != 1) exit 1; v += $4/$2 }
+    END { q = v/(4/3*atan2(0, -1)*1e12) - 1; exit !(q < 1e-9 && q > -1e-9) }'
+  bad 1 "layer 2 has pores" relax b.h5
+  bad 1 "layer 1 has pores" mksphere -n 100 --mass 1e20 --layer ice::pores=0.3 --hydrostatic
+  bad 2 "pores=1 is not in 0 to 1" mksphere --mass 1 --layer ice::pores=1
+}
+
 @test "a profile in a file: text and HDF5 give the particles that the recipe gives" {
   body="-n 1000 --mass 1e23kg --layer iron:0.2 --layer ice:0.8"
   mksphere $body -o raw.h5 && relax --profile p.h5 --profile-only raw.h5 >p.tsv

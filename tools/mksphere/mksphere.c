@@ -55,7 +55,7 @@ static const Opt OPTS[] = {
 static const OptProgram PROGRAM = {
   "mksphere", "build a body of particles on a lattice", "[options] > body.h5",
   "SHARE: mass fraction (0.3), mass (4e22kg) or outer radius (1200km) of the layer; empty: to be found. As many of mass, "
-  "radius and shares as there are layers. STATE: u=, s=, T=1500K or T=continuous; isentropic, isothermal or power=A (T ~ rho^A). "
+  "radius and shares as there are layers. STATE: u=, s=, T=1500K or T=continuous; isentropic, isothermal or power=A (T ~ rho^A); pores=P. "
   "Without --hydrostatic the body is uncompressed: relax gives it its pressure.",
   "mksphere -n 20000 --mass 9.43e20 --layer basalt:0.7 --layer ice:0.3 --rotate 1 > body.h5\n"
   "mksphere -m 1Mearth -r 6371km -l iron -l granite -T 300K --hydrostatic > earth.h5", OPTS, 0, 0};
