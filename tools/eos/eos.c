@@ -41,7 +41,7 @@ static const Opt OPTS[] = {
 static const OptProgram PROGRAM = {
     "eos",
     "print pressure and sound speed of a material",
-    "--material NAME --rho VALUES --u VALUES | --material NAME - < pairs | table ... | fill ...",
+    "--material NAME --rho VALUES --u VALUES | --material NAME - < pairs | table | fill ...",
     "VALUES are numbers with or without unit separated by commas; LOW:HIGH:N stands for N evenly "
     "spaced ones, log:LOW:HIGH:N for logarithmically spaced ones. Every density is combined with "
     "every energy. With - as input, pairs of density and energy are read from stdin, one a line; "
