@@ -18,11 +18,11 @@ static const double SAVE_EVERY = 60; /* s of the wall clock */
 static volatile sig_atomic_t stop_signal;
 static void on_signal(int number) { stop_signal = number; }
 
-static void catch_signals(void)
+static void set_signals(void handler(int))
 {
   struct sigaction act;
   memset(&act, 0, sizeof act);
-  act.sa_handler = on_signal;
+  act.sa_handler = handler;
   sigemptyset(&act.sa_mask);
   sigaction(SIGTERM, &act, NULL), sigaction(SIGINT, &act, NULL);
 }
@@ -163,7 +163,7 @@ int run_damped(Body *b, const Options *o, double *took, Err *err)
   Plan plan = {.print = o->checkpoint ? print_of(b, o) : 0, .bar = &bar};
   int restored = restore(b, o, &s, plan.print, err), rc = restored < 0 ? -1 : 0;
   if (restored > 0) fprintf(stderr, "relax: goes on from '%s'\n", o->checkpoint);
-  if (o->checkpoint) catch_signals();
+  if (o->checkpoint) set_signals(on_signal);
   progress_start(&bar, "relax", 30);
   for (int k = s.number; !rc && k < 2; k++) {
     if (!(k == s.number && restored > 0)) s = (Stage){k, b->p->time, NAN, INFINITY, s.begin};
@@ -173,6 +173,7 @@ int run_damped(Body *b, const Options *o, double *took, Err *err)
     if (time[k] > 0) rc = advance(b, o, &plan, &s, err);
   }
   progress_end(&bar);
+  if (o->checkpoint) set_signals(SIG_DFL);
   *took = b->p->time - s.begin;
   return rc;
 }
