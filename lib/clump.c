@@ -210,7 +210,8 @@ static long count_bound(const Parts *p, const long *list, long n, const double *
   return failed ? -1 : bound;
 }
 
-/* How many of the members would be bound to them alone. */
+/* How many of the members would be bound to them alone; 0 when it is less than a tenth: some of any
+ * crowd go the same way. */
 static long holds(const Work *w, Err *err)
 {
   const size_t room = (size_t)members(w) + 1;
@@ -222,7 +223,7 @@ static long holds(const Work *w, Err *err)
   if (list && own && !potential_own(w->p, list, n, w->o->theta, own, err))
     bound = count_bound(w->p, list, n, own, w->o->level, &mass, err);
   free(list), free(own);
-  return bound;
+  return bound >= 0 && (double)bound < CORE * (double)n ? 0 : bound;
 }
 
 /* The first body that the candidates hold, as members: from a core around the deepest, or, as what

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Gravitationally bound bodies. Two methods:
  * potential: a friends-of-friends fragment is unbound layer by layer: from a core around its
- * deepest particle (larger and larger ones, as what is hot holds only as a whole), members are those of the fragment with e_j < 0 in the potential of the current
- * members and in the frame of their most bound tenth, until nothing changes; what is left is
- * searched again, and at the end loose particles join the body that binds them most. A moon that is
- * a fragment of its own stays a body of its own. grow: 004 fig. 2.29 in batch form: from the
- * deepest free particle, members are all free particles bound to the point mass of the current
- * members, e_j = v^2/2 - G M/r, until nothing changes; a body and its moons are one. Neither
- * depends on the order of particles or on the frame of reference. */
+ * deepest particle (larger and larger ones, as what is hot holds only as a whole), members are
+ * those of the fragment with e_j < 0 in the potential of the current members and in the frame of
+ * their most bound tenth, until nothing changes; what is left is searched again, and at the end
+ * loose particles join the body that binds them most. A moon that is a fragment of its own stays a
+ * body of its own. grow: 004 fig. 2.29 in batch form: from the deepest free particle, members are
+ * all free particles bound to the point mass of the current members, e_j = v^2/2 - G M/r, until
+ * nothing changes; a body and its moons are one. Neither depends on the order of particles or on
+ * the frame of reference. */
 #ifndef CLUMP_H
 #define CLUMP_H
 
