@@ -12,9 +12,10 @@
 #define ROW(MEMBER, UNIT, VALUE, MIN, MAX, MEANING) row(#MEMBER, UNIT, VALUE, MIN, MAX, MEANING);
 #define OWN_ROW(KEY, MEMBER, UNIT, VALUE, MIN, MAX, MEANING)                                       \
   row(#KEY, UNIT, VALUE, MIN, MAX, MEANING);
-#define EOS_ROW_TABLE(CAPITAL, NAME)    law("eos", #NAME), EOS_##CAPITAL##_ROWS(ROW);
-#define YIELD_ROW_TABLE(CAPITAL, NAME)  law("strength", #NAME), YIELD_##CAPITAL##_ROWS(ROW);
-#define DAMAGE_ROW_TABLE(CAPITAL, NAME) law("damage", #NAME), DAMAGE_##CAPITAL##_ROWS(ROW);
+#define EOS_ROW_TABLE(CAPITAL, NAME)      law("eos", #NAME), EOS_##CAPITAL##_ROWS(ROW);
+#define YIELD_ROW_TABLE(CAPITAL, NAME)    law("strength", #NAME), YIELD_##CAPITAL##_ROWS(ROW);
+#define DAMAGE_ROW_TABLE(CAPITAL, NAME)   law("damage", #NAME), DAMAGE_##CAPITAL##_ROWS(ROW);
+#define POROSITY_ROW_TABLE(CAPITAL, NAME) law("porosity", #NAME), POROSITY_##CAPITAL##_ROWS(ROW);
 
 static void field(const char *dataset, int width, const char *type, const char *unit,
                   const char *made_by, const char *meaning)
@@ -55,7 +56,8 @@ static void schema(void)
   CHECKPOINT_FIELDS(FIELD)
 }
 
-#define TABLE_ROW(CAPITAL, NAME, UNIT, MEANING) printf("| `%s` | %s | %s |\n", #NAME, UNIT, MEANING);
+#define TABLE_ROW(CAPITAL, NAME, UNIT, MEANING)                                                    \
+  printf("| `%s` | %s | %s |\n", #NAME, UNIT, MEANING);
 static void tables(void)
 {
   printf("| dataset | unit | meaning |\n|---|---|---|\n");
@@ -73,6 +75,10 @@ static void laws(void)
   MATERIAL_STRENGTH_ROWS(OWN_ROW)
   YIELD_LAWS(YIELD_ROW_TABLE)
   DAMAGE_LAWS(DAMAGE_ROW_TABLE)
+  printf("\n### porosity: with every law\n");
+  table();
+  MATERIAL_POROSITY_ROWS(OWN_ROW)
+  POROSITY_LAWS(POROSITY_ROW_TABLE)
 }
 
 int main(int argc, char **argv)

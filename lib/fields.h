@@ -23,6 +23,7 @@
   F(double,  cs,     1, "SoundSpeed",       "m/s",      "relax",    "adiabatic bulk sound speed") \
   F(double,  s,      6, "DeviatoricStress", "Pa",       "relax",    "deviatoric stress xx xy xz yy yz zz, before damage") \
   F(double,  damage, 1, "Damage",           "1",        "weibull",  "0 intact, 1 fully damaged") \
+  F(double,  alpha,  1, "Distention",       "1",        "mksphere", "density of the solid over that of porous matter, without load") \
   F(int32_t, nact,   1, "ActiveFlaws",      "1",        "solver",   "flaws activated so far") \
   F(double,  phi,    1, "Potential",        "J/kg",     "solver",   "specific gravitational potential") \
   F(double,  pmax,   1, "PeakPressure",     "Pa",       "solver",   "largest pressure so far") \

@@ -3,6 +3,7 @@
  * order, so row k lies k doubles behind the struct's start. */
 #include <dirent.h>
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -42,9 +43,16 @@ static const Law EOS[] = {EOS_LAWS(EOS_ENTRY)};
 static const Law YIELD[] = {{NULL, 0}, YIELD_LAWS(YIELD_ENTRY)};
 static const Law DAMAGE[] = {{NULL, 0}, DAMAGE_LAWS(DAMAGE_ENTRY)};
 
+#define POROSITY_ROW_TABLE(CAPITAL, NAME)                                                          \
+  static const CfgRow porosity_rows_##NAME[] = {POROSITY_##CAPITAL##_ROWS(ROW)};
+#define POROSITY_ENTRY(CAPITAL, NAME) {porosity_rows_##NAME, N(porosity_rows_##NAME)},
+POROSITY_LAWS(POROSITY_ROW_TABLE)
+static const Law POROSITY[] = {{NULL, 0}, POROSITY_LAWS(POROSITY_ENTRY)};
+
 #define OWN_ROW(KEY, MEMBER, UNIT, VALUE, MIN, MAX, MEANING)                                       \
   {#KEY, CFG_REAL, offsetof(Material, MEMBER), UNIT, VALUE, MIN, MAX, MEANING},
 static const CfgRow EOS_OWN[] = {MATERIAL_EOS_ROWS(OWN_ROW)};
+static const CfgRow PORES[] = {MATERIAL_POROSITY_ROWS(OWN_ROW)};
 static const CfgRow STRENGTH[] = {MATERIAL_STRENGTH_ROWS(OWN_ROW)};
 
 /* A group of the file: its name, the words of `form`, the laws, where form and parameters go. */
@@ -209,6 +217,38 @@ static int table_load(const config_setting_t *root, Material *m, const char *lab
   return table_free(&t), 0;
 }
 
+static int porous_consistent(const config_setting_t *root, const Material *m, const char *label,
+                             Err *err)
+{
+  const config_setting_t *pores = config_setting_get_member(root, "porosity");
+  const Porosity *q = &m->porosity;
+  const char *wrong = NULL;
+  if (m->yield.form == YIELD_POROUS && q->form != POROSITY_SIRONO)
+    return cfg_where(err, config_setting_get_member(root, "strength"), label,
+                     "the strength 'porous' needs the porosity 'sirono'");
+  if (q->form == POROSITY_NONE) return 0;
+  if (eos_rho0(&m->eos) <= 0)
+    wrong = "a gas has no pores";
+  else if (q->c > 0 && q->form == POROSITY_SIRONO)
+    wrong = "sirono has a bulk modulus of its own: no 'c_elastic'";
+  else if (q->c > sqrt(eos_bulk(&m->eos) / eos_rho0(&m->eos)))
+    wrong = "'c_elastic' must not be above the sound speed of the solid";
+  else if (q->form == POROSITY_P_ALPHA && q->p_alpha.p_s <= q->p_alpha.p_e)
+    wrong = "'p_s' must be above 'p_e'";
+  else if (q->form == POROSITY_P_ALPHA_TWO_POWER &&
+           (q->p_alpha_two_power.p_t <= q->p_alpha_two_power.p_e ||
+            q->p_alpha_two_power.p_s < q->p_alpha_two_power.p_t ||
+            q->p_alpha_two_power.alpha_e < q->p_alpha_two_power.alpha_t))
+    wrong = "wants p_e < p_t <= p_s and alpha_t <= alpha_e";
+  else if (q->form == POROSITY_EPSILON_ALPHA &&
+           q->epsilon_alpha.epsilon_x >= q->epsilon_alpha.epsilon_e)
+    wrong = "'epsilon_x' must be below 'epsilon_e' (compression is negative)";
+  else if (q->form == POROSITY_SIRONO &&
+           (q->alpha0 * q->sirono.phi_min >= 1 || q->alpha0 * q->sirono.phi_max <= 1))
+    wrong = "1/alpha_0 must lie between 'phi_min' and 'phi_max'";
+  return wrong ? cfg_where(err, pores, label, "%s", wrong) : 0;
+}
+
 /* What no single row can say. */
 static int consistent(const config_setting_t *root, const Material *m, const char *label, Err *err)
 {
@@ -237,12 +277,12 @@ static int consistent(const config_setting_t *root, const Material *m, const cha
                      "collins has a strength for damaged rock of its own: 'shear' must be 0");
   if (m->damage.form != DAMAGE_NONE && m->mu <= 0)
     return cfg_where(err, damage, label, "'damage' needs a 'shear_modulus' above 0 in 'strength'");
-  return 0;
+  return porous_consistent(root, m, label, err);
 }
 
 static int name_read(const config_setting_t *root, MaterialName name, const char *label, Err *err)
 {
-  static const char *const also[] = {"eos", "strength", "damage", "table"};
+  static const char *const also[] = {"eos", "strength", "damage", "porosity", "table"};
   CfgRow row = {"name", CFG_TEXT, 0, NULL, NULL, 0, 0, "what the material is called"};
   if (cfg_read(root, &row, 1, name, also, N(also), label, err)) return -1;
   if (name[0] && !strpbrk(name, "/. \t\n")) return 0;
@@ -258,7 +298,9 @@ static int root_read(const config_setting_t *root, Material *m, const char *labe
       {"strength", YIELD_WORDS, YIELD, (size_t)((char *)&m->yield.form - (char *)m),
        (size_t)((char *)&m->yield.von_mises - (char *)m), STRENGTH, N(STRENGTH)},
       {"damage", DAMAGE_WORDS, DAMAGE, (size_t)((char *)&m->damage.form - (char *)m),
-       (size_t)((char *)&m->damage.grady_kipp - (char *)m), NULL, 0}};
+       (size_t)((char *)&m->damage.grady_kipp - (char *)m), NULL, 0},
+      {"porosity", POROSITY_WORDS, POROSITY, (size_t)((char *)&m->porosity.form - (char *)m),
+       (size_t)((char *)&m->porosity.p_alpha - (char *)m), PORES, N(PORES)}};
   MaterialName name;
   if (name_read(root, name, label, err)) return -1;
   if (!config_setting_get_member(root, "eos"))

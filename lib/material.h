@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Materials from libconfig text: a name, the group `eos`, and for solids `strength` and `damage`,
- * each with the `form` of its law (a word of EOS_WORDS, YIELD_WORDS, DAMAGE_WORDS), the law's
+ * and `porosity`, each with the `form` of its law (a word of EOS_WORDS, YIELD_WORDS ...), the law's
  * parameters and, if one likes, their `source`; `strength` also holds shear_modulus and
  * melt_energy. Without strength it is a fluid, without damage it does not break. The laws and their
  * rows are in physics/.

@@ -28,7 +28,8 @@ typedef enum {
   X(k,     "1/m^3", NULL,  1e-300, 1e300, "Weibull k: k e^m flaws a volume fail below strain e") \
   X(m,     "1",     NULL,  1,      100,   "Weibull m") \
   X(crack, "1",     "0.4", 0,      1,     "crack speed in units of the longitudinal wave speed") \
-  X(shear, "1",     "1",   0,      1,     "part of the damage that acts on the deviatoric stress; 0: on tension alone")
+  X(shear, "1",     "1",   0,      1,     "part of the damage that acts on the deviatoric stress; 0: on tension alone") \
+  X(pores, "1",     "1",   0,      1,     "part of the damage that crushing of pores does; 0: none")
 /* clang-format on */
 
 struct damage_grady_kipp {

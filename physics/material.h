@@ -7,8 +7,9 @@
 #include "eos.h"
 #include "yield.h"
 #include "damage.h"
+#include "porosity.h"
 
-/* What the groups `eos` and `strength` hold besides their laws:
+/* What the groups hold besides their laws:
  * X(key, member, SI unit, default, min, max, meaning). */
 /* clang-format off */
 #define MATERIAL_EOS_ROWS(X) \
@@ -20,16 +21,20 @@
   X(weak_alpha, weak.alpha, "1", "1", 0, 100, "exponent above weak_limit") \
   X(weak_beta,  weak.beta,  "1", "1", 0, 100, "exponent below weak_limit") \
   X(weak_gamma, weak.gamma, "1", "1", 0, 1,   "what is left of the cohesion at weak_limit")
+#define MATERIAL_POROSITY_ROWS(X) \
+  X(alpha_0,   porosity.alpha0, "1",   NULL, 1, 1000, "distention where the input has none: rho_solid/rho, 1/(1 - porosity)") \
+  X(c_elastic, porosity.c,      "m/s", "0",  0, 1e30, "sound speed of elastic matter at alpha_0; 0: the solid's")
 /* clang-format on */
 
 typedef struct {
-  Eos eos;        /* equation of state */
-  double heat;    /* heat capacity at constant volume [J/K/kg]; 0: unknown */
-  double mu;      /* shear modulus [Pa]; 0: a fluid, no deviatoric stress */
-  Yield yield;    /* limit of the deviatoric stress */
-  Damage damage;  /* brittle fragmentation */
-  double melt;    /* specific energy at which the material melts [J/kg]; 0: unknown */
-  YieldWeak weak; /* low-density weakening; limit 0: none */
+  Eos eos;           /* equation of state */
+  double heat;       /* heat capacity at constant volume [J/K/kg]; 0: unknown */
+  double mu;         /* shear modulus [Pa]; 0: a fluid, no deviatoric stress */
+  Yield yield;       /* limit of the deviatoric stress */
+  Damage damage;     /* brittle fragmentation */
+  Porosity porosity; /* pores, and how they crush */
+  double melt;       /* specific energy at which the material melts [J/kg]; 0: unknown */
+  YieldWeak weak;    /* low-density weakening; limit 0: none */
 } Material;
 
 /* material_brittle: whether weibull gives it flaws. */
@@ -37,6 +42,23 @@ HD int material_brittle(const Material *m) { return m->damage.form != DAMAGE_NON
 
 /* material_heats: whether its strength has a temperature of its own (field Temperature). */
 HD int material_heats(const Material *m) { return m->yield.form == YIELD_JOHNSON_COOK; }
+
+/* material_porous: whether it can have pores. */
+HD int material_porous(const Material *m) { return m->porosity.form != POROSITY_NONE; }
+
+/* material_rare: whether it has laws that few runs need: a table, pores, strength beyond von Mises.
+ * A GPU's passes without them need fewer registers. */
+HD int material_rare(const Material *m)
+{
+  return m->eos.form == EOS_TABLE || material_porous(m) || m->weak.limit > 0 ||
+         m->yield.form > YIELD_VON_MISES;
+}
+
+/* material_distention: what it begins with. */
+HD double material_distention(const Material *m)
+{
+  return material_porous(m) ? m->porosity.alpha0 : 1;
+}
 
 /* material_young: Young's modulus [Pa] E = 9 K mu / (3 K + mu), K the bulk modulus of the EOS at
  * zero pressure (001 eq. 49). */

@@ -21,6 +21,7 @@ typedef struct {
   double strain; /* equivalent plastic strain so far */
   double rate;   /* equivalent strain rate [1/s] */
   double T;      /* temperature [K] */
+  double pores;  /* shear strength that the porosity law gives [Pa] */
 } YieldPoint;
 
 /* yield_return: the factor that takes a stress back to its limit. */
@@ -36,6 +37,7 @@ HD double yield_return(double stress, double limit)
 #include "yield/lundborg.h"
 #include "yield/collins.h"
 #include "yield/johnson_cook.h"
+#include "yield/porous.h"
 
 /* X(CAPITAL, name): token strength.form, file yield/<name>.h, struct yield_<name>, function
  * yield_<name>. */
@@ -44,7 +46,7 @@ HD double yield_return(double stress, double limit)
   X(BENZ_ASPHAUG, benz_asphaug)                                                                    \
   X(DRUCKER_PRAGER, drucker_prager)                                                                \
   X(MOHR_COULOMB, mohr_coulomb)                                                                    \
-  X(LUNDBORG, lundborg) X(COLLINS, collins) X(JOHNSON_COOK, johnson_cook)
+  X(LUNDBORG, lundborg) X(COLLINS, collins) X(JOHNSON_COOK, johnson_cook) X(POROUS, porous)
 
 typedef enum {
   YIELD_NONE,

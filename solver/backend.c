@@ -44,7 +44,8 @@ static long find(Sim *sim, int64_t id)
 
 int backend_idle(const Sim *sim, const char *member)
 {
-  return strcmp(member, "T") == 0 && !sim->heated;
+  return (strcmp(member, "T") == 0 && !sim->heated) ||
+         (strcmp(member, "alpha") == 0 && !sim->porous);
 }
 
 void backend_look(Sim *sim, int64_t id, char *text, size_t size)

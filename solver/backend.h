@@ -87,8 +87,9 @@ struct Sim {
   Material *material; /* [materials], host */
   int materials;
   int solid;    /* any material with a shear modulus, and strength on */
+  int rare;     /* any material with laws that few runs need (material_rare) */
+  int porous;   /* any material with pores */
   int heated;   /* any material whose strength has a temperature of its own, and strength on */
-  int tables;   /* any material with a table */
   int miscible; /* the number-density form */
   State s;
   void *own;       /* the backend's */

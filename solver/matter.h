@@ -33,16 +33,32 @@ HD Sym passes_strain_rate(const double *g)
   return e;
 }
 
-/* matter_weak: what low density leaves of the cohesion. */
-HD double matter_weak(const Material *m, double rho)
+/* matter_porous: whether i has pores. */
+HD int matter_porous(const State *s, const Material *m) { return s->rare && material_porous(m); }
+
+/* matter_alpha: the distention of i without load. */
+HD double matter_alpha(const State *s, const Material *m, long i)
 {
-  return m->weak.limit > 0 ? yield_weak(&m->weak, rho / eos_rho0(&m->eos)) : 1;
+  return matter_porous(s, m) ? s->alpha[i] : 1;
 }
 
-/* matter_tension: p, or the largest tension that the strength allows at u. */
-HD_CALL double matter_tension(const Material *m, double p, double rho, double u, double damage)
+/* matter_distention: the same without a look at the material. */
+HD double matter_distention(const State *s, long i)
 {
-  double most = yield_tension(&m->yield, damage, yield_soft(u, m->melt), matter_weak(m, rho));
+  return s->rare && s->alpha ? s->alpha[i] : 1;
+}
+
+/* matter_weak: what low density leaves of the cohesion. */
+HD double matter_weak(const State *s, const Material *m, double rho)
+{
+  return s->rare && m->weak.limit > 0 ? yield_weak(&m->weak, rho / eos_rho0(&m->eos)) : 1;
+}
+
+/* matter_tension: p, or the largest tension that the strength allows; rho: of the solid. */
+HD_CALL double matter_tension(const State *s, const Material *m, long i, double p, double rho)
+{
+  double most =
+      yield_tension(&m->yield, s->damage[i], yield_soft(s->ue[i], m->melt), matter_weak(s, m, rho));
   return p < -most ? -most : p;
 }
 
@@ -52,15 +68,56 @@ HD void matter_eos(const State *s, long i, double u, int strength)
 {
   const Material *m = &s->material[s->mat[i]];
   const double *x = &s->x[3 * i];
-  double r = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
-  EosPoint e =
-      s->tables ? eos_eval(&m->eos, s->rho[i], u, r) : eos_formula(&m->eos, s->rho[i], u, r);
-  if (e.p < 0 && strength && m->mu > 0 && yield_knows_pressure(&m->yield))
-    e.p = matter_tension(m, e.p, s->rho[i], u, s->damage[i]);
+  double r = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]), alpha = 1, mu = m->mu;
+  EosPoint e;
+  if (matter_porous(s, m)) {
+    PorousPoint q = porosity_eval(&m->porosity, &m->eos, s->rho[i], u, r, s->alpha[i]);
+    s->alpha[i] = alpha = q.alpha, mu *= q.stiff, e = q.e;
+  } else
+    e = s->rare ? eos_eval(&m->eos, s->rho[i], u, r) : eos_formula(&m->eos, s->rho[i], u, r);
   s->ue[i] = u;
+  if (s->rare && e.p < 0 && strength && m->mu > 0 && yield_knows_pressure(&m->yield))
+    e.p = matter_tension(s, m, i, e.p, alpha * s->rho[i]);
   s->p[i] = e.p;
   s->cs[i] = e.cs;
-  s->cl[i] = m->mu > 0 ? sqrt(e.cs * e.cs + 4. / 3 * m->mu / s->rho[i]) : e.cs;
+  s->cl[i] = mu > 0 ? sqrt(e.cs * e.cs + 4. / 3 * mu / s->rho[i]) : e.cs;
+}
+
+/* matter_stiff: moduli of i over those of its solid. */
+HD double matter_stiff(const State *s, const Material *m, long i)
+{
+  return matter_porous(s, m) ? porosity_stiffness(&m->porosity, &m->eos, s->alpha[i]) : 1;
+}
+
+/* matter_shear: the shear modulus that S of i grows with, f mu/alpha with the share f of the strain
+ * that the solid takes (Jutzi et al. 2008); Sirono: as K. */
+HD_CALL double matter_porous_shear(const State *s, const Material *m, long i)
+{
+  const double alpha = s->alpha[i];
+  if (m->porosity.form == POROSITY_SIRONO) return m->mu * matter_stiff(s, m, i);
+  return m->mu / alpha *
+         porosity_share(&m->porosity, &m->eos, s->rho[i], s->u[i], s->p[i], alpha, s->divv[i] < 0);
+}
+
+HD double matter_shear(const State *s, long i)
+{
+  const Material *m = &s->material[s->mat[i]];
+  return matter_porous(s, m) ? matter_porous_shear(s, m, i) : m->mu;
+}
+
+/* matter_compact: what follows from a change of the distention of i that was `old` before: S of the
+ * porous matter is that of its solid over alpha, and crushing breaks (where damage is on). */
+HD_CALL void matter_compact(const State *s, long i, double old, int solid, int damage)
+{
+  const Material *m = &s->material[s->mat[i]];
+  double alpha = s->alpha[i], grown;
+  if (alpha == old) return;
+  if (solid && m->porosity.form != POROSITY_SIRONO)
+    passes_keep_stress(&s->s[6 * i], tensor_scale(passes_stress(&s->s[6 * i]), old / alpha));
+  if (!damage || m->damage.form == DAMAGE_NONE || alpha > old) return;
+  grown = cbrt(s->damage[i]) + m->damage.grady_kipp.pores * (porosity_broken(&m->porosity, alpha) -
+                                                             porosity_broken(&m->porosity, old));
+  s->damage[i] = grown < 1 ? grown * grown * grown : 1;
 }
 
 /* matter_rate: the equivalent strain rate sqrt(2/3 e:e) of the deviatoric strain rate [1/s]. */
@@ -76,9 +133,10 @@ HD double matter_rate(const double *g)
 HD YieldPoint matter_point(const State *s, const Material *m, long i)
 {
   Sym d = passes_stress(&s->s[6 * i]);
-  int heats = material_heats(m);
-  double soft = yield_soft(s->ue[i], m->melt), weak = matter_weak(m, s->rho[i]);
-  YieldPoint at = {d, tensor_j2(d), s->p[i], s->damage[i], soft, weak, 0, 0, 0};
+  int heats = s->rare && material_heats(m);
+  double rho = s->rho[i] * matter_alpha(s, m, i);
+  double soft = yield_soft(s->ue[i], m->melt), weak = matter_weak(s, m, rho);
+  YieldPoint at = {d, tensor_j2(d), s->p[i], s->damage[i], soft, weak, 0, 0, 0, 0};
   if (heats) at.strain = s->strain[i], at.rate = matter_rate(&s->g[9 * i]), at.T = s->T[i];
   return at;
 }
@@ -87,19 +145,21 @@ HD YieldPoint matter_point(const State *s, const Material *m, long i)
 HD_CALL double matter_other_factor(const State *s, const Material *m, long i)
 {
   YieldPoint at = matter_point(s, m, i);
+  if (m->yield.form == YIELD_POROUS)
+    at.pores = porosity_shear_strength(&m->porosity, &m->eos, s->rho[i]);
   return yield_factor(&m->yield, &at);
 }
 
 /* matter_factor: what the strength leaves of the deviatoric stress; nothing in vapour. */
 HD double matter_factor(const State *s, const Material *m, long i)
 {
-  if (eos_vapour(&m->eos, s->rho[i], s->ue[i])) return 0;
+  if (eos_vapour(&m->eos, s->rho[i] * matter_alpha(s, m, i), s->ue[i])) return 0;
   if (m->yield.form == YIELD_NONE) return 1;
   if (m->yield.form == YIELD_VON_MISES) {
     YieldPoint at = matter_point(s, m, i);
     return at.soft > 0 ? yield_von_mises(&m->yield.von_mises, &at) : 0;
   }
-  return matter_other_factor(s, m, i);
+  return s->rare ? matter_other_factor(s, m, i) : 1;
 }
 
 /* matter_yield: limits the deviatoric stress of i; what it gives up is plastic strain, and heat
@@ -108,13 +168,13 @@ HD double matter_factor(const State *s, const Material *m, long i)
 HD void matter_yield(const State *s, long i, int count, double heat)
 {
   const Material *m = &s->material[s->mat[i]];
-  const int heats = count && material_heats(m);
+  const int heats = s->rare && count && material_heats(m);
   Sym d = passes_stress(&s->s[6 * i]);
   double j2 = tensor_j2(d), f, strain;
   if (heats) s->T[i] += heat / m->heat;
   f = matter_factor(s, m, i);
   if (f >= 1) return;
-  strain = (1 - f) * sqrt(3 * j2) / (3 * m->mu);
+  strain = (1 - f) * sqrt(3 * j2) / (3 * m->mu * matter_stiff(s, m, i));
   if (count) s->strain[i] += strain;
   if (heats)
     s->T[i] += m->yield.johnson_cook.heating * f * sqrt(3 * j2) * strain / (s->rho[i] * m->heat);
@@ -130,18 +190,19 @@ HD double passes_strain(const State *s, long i)
   if (left <= 0) return 0;
   largest =
       left * tensor_largest(passes_stress(&s->s[6 * i])) - (p < 0 ? (1 - s->damage[i]) * p : p);
-  return largest > 0 ? largest / (left * material_young(m)) : 0;
+  return largest > 0 ? largest / (left * matter_stiff(s, m, i) * material_young(m)) : 0;
 }
 
 /* passes_crack: the crack speed of i at damage D. */
 HD double passes_crack(const State *s, const Material *m, long i, double damage)
 {
-  return damage_crack_speed(&m->damage.grady_kipp, eos_bulk(&m->eos), m->mu, damage, s->rho[i]);
+  double stiff = matter_stiff(s, m, i), bulk = eos_bulk(&m->eos);
+  return damage_crack_speed(&m->damage.grady_kipp, stiff * bulk, stiff * m->mu, damage, s->rho[i]);
 }
 
 /* passes_damage: activates flaws and lets cracks grow for dt, at the crack speed of the middle of
- * the step; keeps the rate of the cube root of D for rk2. The step needs no limit for it: the strain
- * that flaws feel does not depend on D, and growth at a constant rate is exact. */
+ * the step; keeps the rate of the cube root of D for rk2. The step needs no limit for it: the
+ * strain that flaws feel does not depend on D, and growth at a constant rate is exact. */
 HD void passes_damage(const State *s, long i, double dt)
 {
   const Material *m = &s->material[s->mat[i]];

@@ -201,12 +201,13 @@ HD void passes_density(const State *s, const Step *k, long i)
 HD void pass_advance(const State *s, const Step *k, long i)
 {
   const double *g = &s->g[9 * i], mu = k->strength ? s->material[s->mat[i]].mu : 0;
+  const double alpha = matter_distention(s, i);
   int solid = mu > 0;
   double p = s->p[i], u = s->u[i], heat = k->energy == 0 ? s->dqdt[i] : 0, work;
   Sym old = passes_own_stress(s, i, solid), mid = old;
   passes_density(s, k, i);
   if (solid) {
-    Sym now = passes_elastic(old, g, mu, k->dt);
+    Sym now = passes_elastic(old, g, matter_shear(s, i), k->dt);
     passes_keep_stress(&s->s[6 * i], now);
     mid = tensor_scale(tensor_axpy(old, 1, now), 0.5);
   }
@@ -216,9 +217,11 @@ HD void pass_advance(const State *s, const Step *k, long i)
     solid = solid && k->energy == 0;
     work = passes_work(s, i, p, mid, s->rhoa[i], solid);
     matter_eos(s, i, u + k->dt * (work + heat), k->strength);
+    if (s->rare && s->alpha) s->alpha[i] = alpha;
     work = passes_work(s, i, 0.5 * (p + s->p[i]), mid, s->rhoa[i], solid);
     matter_eos(s, i, u + k->dt * (work + heat), k->strength);
   }
+  if (s->rare && s->alpha) matter_compact(s, i, alpha, mu > 0, k->damage);
   if (mu > 0) matter_yield(s, i, 1, k->dt * heat);
   if (k->damage) passes_damage(s, i, k->dt);
   passes_pack(s, k, i, mu > 0, 0.5 * k->dt);
@@ -278,14 +281,15 @@ HD void pass_still(const State *s, const Step *k, long i)
  * they are kept) and of the cracks. */
 HD void pass_local(const State *s, const Step *k, long i)
 {
-  double mu = k->strength ? s->material[s->mat[i]].mu : 0;
+  double mu = k->strength ? s->material[s->mat[i]].mu : 0, alpha = matter_distention(s, i);
   passes_density(s, k, i);
   matter_eos(s, i, s->u[i], k->strength);
+  if (s->rare && s->alpha) matter_compact(s, i, alpha, mu > 0, k->damage);
   if (mu > 0) matter_yield(s, i, 0, 0);
   if (k->damage) passes_damage(s, i, 0);
   if (s->ds)
-    passes_keep_stress(&s->ds[6 * i],
-                       passes_jaumann(passes_stress(&s->s[6 * i]), &s->g[9 * i], mu));
+    passes_keep_stress(&s->ds[6 * i], passes_jaumann(passes_stress(&s->s[6 * i]), &s->g[9 * i],
+                                                     mu > 0 ? matter_shear(s, i) : 0));
   passes_pack(s, k, i, mu > 0, 0);
 }
 
@@ -311,6 +315,7 @@ HD void pass_save(const State *s, const Step *k, long i)
   to->u[i] = k->rates ? passes_heating(s, k, i) : s->u[i];
   to->h[i] = k->rates ? (k->smoothing ? s->h[i] * div / s->dimension : 0) : s->h[i];
   to->crack[i] = k->rates ? s->dcrack[i] : cbrt(s->damage[i]);
+  if (s->alpha) to->alpha[i] = s->alpha[i];
 }
 
 /* passes_sum: q + dt (w1 k1 + w2 k2 + w3 k3) of one number; q itself when dt is 0, whatever the k
@@ -335,9 +340,10 @@ HD void pass_combine(const State *s, const Step *k, long i)
   if (s->u[i] < k->energy_floor) s->u[i] = k->energy_floor;
   h = PASSES_SUM(h, i);
   s->h[i] = h < k->h_min ? k->h_min : h > k->h_max ? k->h_max : h;
-  if (k->damage && s->nflaw[i] > 0) {
-    double limit = (double)s->nact[i] / s->nflaw[i], old = s->saved[0].crack[i],
-           grown = crack * crack * crack;
+  if (s->alpha) s->alpha[i] = s->saved[0].alpha[i];
+  if (k->damage) {
+    double limit = s->nflaw[i] > 0 ? (double)s->nact[i] / s->nflaw[i] : 0,
+           old = s->saved[0].crack[i], grown = crack * crack * crack;
     old = old * old * old;
     grown = grown > limit ? limit : grown;
     s->damage[i] = grown > old ? grown : old;
@@ -350,11 +356,12 @@ HD void pass_damp(const State *s, const Step *k, long i) { passes_damp(s, k, i, 
 /* settle: the state that combine has reached: h towards the wanted neighbours, EOS, yield. */
 HD void pass_settle(const State *s, const Step *k, long i)
 {
-  double h = s->h[i] * passes_crowd(s, k, i);
+  const int solid = k->strength && s->material[s->mat[i]].mu > 0;
+  double h = s->h[i] * passes_crowd(s, k, i), alpha = matter_distention(s, i);
   s->h[i] = h < k->h_min ? k->h_min : h > k->h_max ? k->h_max : h;
   matter_eos(s, i, s->u[i], k->strength);
-  if (k->strength && s->material[s->mat[i]].mu > 0)
-    matter_yield(s, i, 1, k->energy == 0 ? k->dt * s->dqdt[i] : 0);
+  if (s->rare && s->alpha) matter_compact(s, i, alpha, solid, k->damage);
+  if (solid) matter_yield(s, i, 1, k->energy == 0 ? k->dt * s->dqdt[i] : 0);
 }
 
 /* pass_correct: divv, and the corrected velocity gradient g = raw C with C, the inverse of the

@@ -23,8 +23,9 @@ HD void reduce_add_sums(ReduceSums *o, const State *s, long i)
   for (int d = 0; d < 3; d++)
     o->v[4 + d] += m * v[d], o->v[7 + d] += m * l[d], o->v[10 + d] += m * x[d];
   o->v[13] += m * sqrt(v2), o->v[14] += m * sqrt(l[0] * l[0] + l[1] * l[1] + l[2] * l[2]);
-  if (s->tables && s->material[s->mat[i]].eos.form == EOS_TABLE) {
-    int outside = eos_table_outside(&s->material[s->mat[i]].eos.table, s->rho[i], s->u[i]);
+  if (s->rare && s->material[s->mat[i]].eos.form == EOS_TABLE) {
+    int outside = eos_table_outside(&s->material[s->mat[i]].eos.table,
+                                    s->rho[i] * (s->alpha ? s->alpha[i] : 1), s->u[i]);
     for (int d = 0; d < 3; d++) o->v[15 + d] += outside >> d & 1;
   }
 }

@@ -61,8 +61,9 @@ static int open_common(Sim *sim, const Param *par, const Parts *p, const char *d
   for (int k = 0; k < p->materials; k++) {
     const Material *m = &sim->material[k];
     sim->solid |= par->strength && m->mu > 0;
+    sim->rare |= material_rare(m);
+    sim->porous |= material_porous(m);
     sim->heated |= par->strength && material_heats(m);
-    sim->tables |= m->eos.form == EOS_TABLE;
   }
   return 0;
 }
@@ -74,14 +75,18 @@ static int hand_over(Sim *sim, const Parts *p, Err *err)
   Parts whole = *p;
   size_t n = (size_t)p->n;
   double *T = sim->heated ? calloc(n + 1, sizeof *T) : NULL;
-  int bad = sim->heated && !T ? err_set(err, "not enough memory for %ld particles", p->n) : 0;
-  for (long i = 0; T && i < p->n; i++) {
+  double *alpha = sim->porous ? calloc(n + 1, sizeof *alpha) : NULL;
+  int bad = (sim->heated && !T) || (sim->porous && !alpha);
+  if (bad) err_set(err, "not enough memory for %ld particles", p->n);
+  for (long i = 0; !bad && i < p->n; i++) {
     const Material *m = &sim->material[p->mat[i]];
-    T[i] = p->T && p->T[i] > 0 ? p->T[i] : material_heats(m) ? m->yield.johnson_cook.T0 : 0;
+    if (T) T[i] = p->T && p->T[i] > 0 ? p->T[i] : material_heats(m) ? m->yield.johnson_cook.T0 : 0;
+    if (alpha) alpha[i] = p->alpha && p->alpha[i] >= 1 ? p->alpha[i] : material_distention(m);
   }
   if (T) whole.T = T;
+  if (alpha) whole.alpha = alpha;
   bad = bad || sim->b->open(sim, &whole, err);
-  free(T);
+  free(T), free(alpha);
   return bad ? -1 : 0;
 }
 
@@ -112,7 +117,9 @@ int sim_restart(Sim *sim, const Param *par, const Parts *p, const char *device, 
   if (open_common(sim, par, p, device, err)) return sim_close(sim), -1;
   if (part_need(p, "a dudt dqdt divv p cs s nact signal dcrack nngb", "checkpoint", err))
     return sim_close(sim), -1;
-  if (sim->heated && part_need(p, "T", "checkpoint", err)) return sim_close(sim), -1;
+  if ((sim->porous && part_need(p, "alpha", "checkpoint", err)) ||
+      (sim->heated && part_need(p, "T", "checkpoint", err)))
+    return sim_close(sim), -1;
   sim->par.h_min = part_number(p, "run", "SmoothingMin"),
   sim->par.h_max = part_number(p, "run", "SmoothingMax");
   sim->dt = part_number(p, "run", "NextStep");
@@ -225,7 +232,8 @@ int sim_send(Sim *sim, Parts *p, Err *err)
   Limits l;
   if (limits_of(sim, &l, err) || part_add(p, stored, err) ||
       (sim->par.gravity_every > 1 && part_add(p, "pull", err)) ||
-      (sim->heated && part_add(p, "T", err)) || sim->b->store(sim, p, err))
+      (sim->porous && part_add(p, "alpha", err)) || (sim->heated && part_add(p, "T", err)) ||
+      sim->b->store(sim, p, err))
     return -1;
   p->time = sim->time;
   if (sim->par.gravity_every > 1 &&

@@ -35,7 +35,7 @@
 /* What an integrator may put aside: the evolved quantities, or rates of them. */
 /* clang-format off */
 #define SAVED_FIELDS(V) \
-  V(x, 3) V(v, 3) V(rho, 1) V(u, 1) V(s, 6) V(crack, 1) V(h, 1)
+  V(x, 3) V(v, 3) V(rho, 1) V(u, 1) V(s, 6) V(crack, 1) V(h, 1) V(alpha, 1)
 /* clang-format on */
 enum { STATE_SLOTS = 4 };
 
@@ -48,7 +48,7 @@ typedef struct {
 typedef struct {
   long n;
   int dimension;
-  int tables;               /* any material has a table for its equation of state */
+  int rare;                 /* any material has laws that few runs need (material_rare) */
   const Material *material; /* [materials], indexed by mat */
   const double *flaw;       /* thresholds of all particles, ascending within one */
 #define STATE_MEMBER(TYPE, MEMBER, ...) TYPE *MEMBER;

@@ -40,7 +40,23 @@ static const char *const materials[] = {
     LIQUID("m") "strength = { shear_modulus = 1.; form = \"johnson_cook\"; A = 0.1; B = 0.1;"
                 "n = 0.3; C = 0.1; rate0 = 0.1; T0 = 0.; Tmelt = 2.; };",
     "name = \"n\"; eos = { form = \"table\"; file = \"heat.h5\"; };",
-    "name = \"o\"; eos = { form = \"table\"; file = \"energy.h5\"; };"};
+    "name = \"o\"; eos = { form = \"table\"; file = \"energy.h5\"; };",
+    LIQUID("p") "strength = { shear_modulus = 1.; form = \"lundborg\"; cohesion = 0.1; friction = "
+                "1.; };"
+                "damage = { form = \"grady_kipp\"; k = 1e10; m = 5.; };"
+                "porosity = { form = \"p_alpha\"; alpha_0 = 1.5; c_elastic = 0.5; p_e = 0.01; p_s "
+                "= 1.; };",
+    LIQUID("q") "porosity = { form = \"p_alpha_two_power\"; alpha_0 = 1.5; p_e = 0.01; p_t = 0.1;"
+                "p_s = 1.; alpha_e = 2.; alpha_t = 1.3; n1 = 3.; n2 = 2.; };",
+    LIQUID("r") "porosity = { form = \"p_alpha_blum\"; alpha_0 = 1.8; p_0 = 0.04; };",
+    LIQUID("s") "porosity = { form = \"p_alpha_log\"; alpha_0 = 1.5; a = 0.7; };",
+    LIQUID("t") "porosity = { form = \"p_alpha_power\"; alpha_0 = 1.5; a = 0.9; b = 0.01; };",
+    LIQUID(
+        "u") "strength = { shear_modulus = 1.; form = \"none\"; };"
+             "porosity = { form = \"epsilon_alpha\"; alpha_0 = 1.5; kappa = 0.9; epsilon_x = -0.2;"
+             "gamma = 0.5; };",
+    LIQUID("v") "strength = { shear_modulus = 1.; form = \"porous\"; };"
+                "porosity = { form = \"sirono\"; alpha_0 = 3.; K_0 = 1.; p_m = 0.1; a = -2.; };"};
 enum { MATERIALS = sizeof materials / sizeof *materials };
 
 /* The arrays of a State. */
@@ -174,17 +190,20 @@ static void close_both(Sim sim[2]) { sim_close(&sim[0]), sim_close(&sim[1]); }
 /* All laws are among the materials. */
 static void all_laws(void **state)
 {
-  int eos[EOS_COUNT] = {0}, yield[YIELD_COUNT] = {0}, damage[DAMAGE_COUNT] = {0};
+  int eos[EOS_COUNT] = {0}, yield[YIELD_COUNT] = {0}, damage[DAMAGE_COUNT] = {0},
+      pores[POROSITY_COUNT] = {0};
   Parts *p = cloud(8, 3);
   Material *m;
   Err err;
   (void)state;
   if (!(m = material_load(p, &err))) fail_msg("%s", err.text);
   for (int k = 0; k < MATERIALS; k++)
-    eos[m[k].eos.form] = yield[m[k].yield.form] = damage[m[k].damage.form] = 1;
+    eos[m[k].eos.form] = yield[m[k].yield.form] = damage[m[k].damage.form] =
+        pores[m[k].porosity.form] = 1;
   for (int k = 0; k < EOS_COUNT; k++) assert_true(eos[k]);
   for (int k = 0; k < YIELD_COUNT; k++) assert_true(yield[k]);
   for (int k = 0; k < DAMAGE_COUNT; k++) assert_true(damage[k]);
+  for (int k = 0; k < POROSITY_COUNT; k++) assert_true(pores[k]);
   material_free(m, p->materials), part_free(p);
 }
 
@@ -207,12 +226,14 @@ static void randomise(Sim *sim, uint64_t seed)
     s->u[i] = 0.5 + s->u[i], s->ue[i] = 0.5 + s->ue[i];
     for (int d = 0; d < 6; d++)
       s->s[6 * i + d] *= 0.3, s->cm[6 * i + d] += d == 0 || d == 3 || d == 5;
+    if (s->alpha) s->alpha[i] = i % 3 == 0 ? 1 : 1.25 + 0.25 * s->alpha[i];
     s->damage[i] = i % 5 == 0 ? 0 : i % 7 == 0 ? 1 : 0.5 + 0.5 * s->damage[i];
     s->nact[i] = (int32_t)(i % (s->nflaw[i] + 1));
     s->nngb[i] = (int32_t)(i % 100);
   }
   for (int slot = 0; slot < sim->slots; slot++)
-    for (long i = 0; i < s->n; i++) s->saved[slot].rho[i] += 2, s->saved[slot].h[i] += 2;
+    for (long i = 0; i < s->n; i++)
+      s->saved[slot].rho[i] += 2, s->saved[slot].h[i] += 2, s->saved[slot].alpha[i] = 1.25;
 }
 
 /* The CPU's State to the card. */

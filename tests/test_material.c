@@ -62,7 +62,8 @@ static double trial(int k, double max) { return max < 2 ? max - 0.01 * k : 1.5 +
     Material m;                                                                                    \
     const struct yield_##NAME *law = &m.yield.NAME;                                                \
     int row = 0;                                                                                   \
-    YIELD_##CAPITAL##_ROWS(TEXT_ROW) strcpy(at, "};");                                             \
+    YIELD_##CAPITAL##_ROWS(TEXT_ROW)                                                               \
+        strcpy(at, "}; porosity = { form = \"sirono\"; alpha_0 = 5; K_0 = 1; p_m = 1; };");        \
     m = parse(text);                                                                               \
     assert_true(m.yield.form == YIELD_##CAPITAL && m.mu == 7 && m.melt == 3);                      \
     row = 0;                                                                                       \
@@ -109,6 +110,29 @@ static void units_and_defaults(void **state)
   assert_true(m.mu == 0 && m.yield.form == YIELD_NONE && !material_brittle(&m));
 }
 
+static void pores(void **state)
+{
+  Material m =
+      parse("name = \"x\";\n" EOS "porosity = { form = \"p_alpha_two_power\"; alpha_0 = 1.7;"
+            "c_elastic = \"1 km/s\"; p_e = \"1 MPa\"; p_t = \"68 MPa\"; p_s = \"213 MPa\";"
+            "alpha_e = 4.64; alpha_t = 1.9; n1 = 12; n2 = 3; };");
+  const struct porosity_p_alpha_two_power *q = &m.porosity.p_alpha_two_power;
+  (void)state;
+  assert_true(material_porous(&m) && m.porosity.form == POROSITY_P_ALPHA_TWO_POWER);
+  assert_true(m.porosity.alpha0 == 1.7 && m.porosity.c == 1e3 && q->p_e == 1e6 && q->p_s == 213e6);
+  assert_true(q->p_t == 68e6 && q->alpha_e == 4.64 && q->alpha_t == 1.9 && q->n1 == 12 &&
+              q->n2 == 3);
+  m = parse("name = \"x\";\n" EOS
+            "porosity = { form = \"epsilon_alpha\"; alpha_0 = 1.7; kappa = 0.98;"
+            "epsilon_x = -0.2; };");
+  assert_true(m.porosity.epsilon_alpha.epsilon_e == 0 && m.porosity.epsilon_alpha.gamma == 0);
+  m = parse("name = \"x\";\n" EOS
+            "porosity = { form = \"sirono\"; alpha_0 = 5; K_0 = 4e3; p_m = 1e3; };");
+  assert_true(m.porosity.sirono.phi_max == 0.58 && m.porosity.sirono.b == 1.48);
+  m = parse("name = \"x\";\n" EOS);
+  assert_true(!material_porous(&m) && material_distention(&m) == 1);
+}
+
 static void mistakes(void **state)
 {
   static const char *const T[][2] = {
@@ -138,6 +162,18 @@ static void mistakes(void **state)
       {"name = \"x\";\n" EOS "strength = { form = \"collins\"; shear_modulus = 1; cohesion = 2;"
        "friction = 1; limit = 3; friction_damaged = 1; };\n" DAMAGE,
        "x.cfg:4: collins has a strength for damaged rock of its own: 'shear' must be 0"},
+      {"name = \"x\";\n" EOS "porosity = { form = \"p_alpha\"; alpha_0 = 2; p_e = 2; p_s = 1; };",
+       "x.cfg:3: 'p_s' must be above 'p_e'"},
+      {"name = \"x\";\n" EOS "porosity = { form = \"p_alpha\"; alpha_0 = 0.5; p_e = 1; p_s = 2; };",
+       "x.cfg:3: 'alpha_0' = 0.5"},
+      {"name = \"x\";\n" EOS "porosity = { form = \"p_alpha\"; alpha_0 = 2; c_elastic = \"2 km/s\";"
+       "p_e = 1; p_s = 2; };",
+       "x.cfg:3: 'c_elastic' must not be above the sound speed of the solid"},
+      {"name = \"x\";\n" EOS "strength = { form = \"porous\"; shear_modulus = 1; };",
+       "x.cfg:3: the strength 'porous' needs the porosity 'sirono'"},
+      {"name = \"x\";\neos = { form = \"ideal\"; gamma = 1.4; };\n"
+       "porosity = { form = \"p_alpha\"; alpha_0 = 2; p_e = 1; p_s = 2; };",
+       "x.cfg:3: a gas has no pores"},
       {"name = \"x\";\n" EOS DAMAGE, "x.cfg:3: 'damage' needs a 'shear_modulus'"},
       {"name = \"x\";\neos = { form = \"ideal\"; gamma = 1.4; };\n" SOLID, "x.cfg:3: a gas has no"},
       {"name = \"x\";\n" EOS SOLID "damage = { form = \"grady_kipp\"; k = 1; m = 16; crack = 3; };",
@@ -309,6 +345,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(units_and_defaults),
+      cmocka_unit_test(pores),
       cmocka_unit_test(mistakes),
       cmocka_unit_test(files),
       cmocka_unit_test(table_1),

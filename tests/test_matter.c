@@ -31,7 +31,7 @@ static One *one_new(const char *text, double rho, double u)
 #undef ONE_NEW
   o->s.n = 1, o->s.dimension = 3, o->s.material = &o->m;
   o->s.rho[0] = rho, o->s.u[0] = u, o->s.h[0] = o->s.m[0] = 1, o->s.T[0] = 298;
-  o->k.strength = o->k.damage = 1;
+  o->k.strength = o->k.damage = o->s.rare = 1, o->s.alpha[0] = material_distention(&o->m);
   pass_local(&o->s, &o->k, 0);
   return o;
 }
@@ -251,12 +251,70 @@ static void acts_on(void **state)
   }
 }
 
+#define PUMICE(C)                                                                                  \
+  ROCK("\"none\";")                                                                                \
+  "damage = { form = \"grady_kipp\"; k = 1e30; m = 8.; };"                                         \
+  "porosity = { form = \"p_alpha\"; alpha_0 = 1.5; c_elastic = " C "; p_e = 1e6; p_s = 2e8; };"
+
+/* Squeezed from all sides the pores close along the crush curve, the solid is broken as they close,
+ * and the work of crushing is heat. */
+static void crushed(void **state)
+{
+  const double g[9] = {-1, 0, 0, 0, -1, 0, 0, 0, -1};
+  One *o = one_new(PUMICE("0."), 1800, 0);
+  double work = 0;
+  (void)state;
+  for (int n = 0; n < 400; n++) {
+    double p = o->s.p[0], rho = o->s.rho[0], crush = 1.5, old = o->s.alpha[0];
+    strain(o, g, 3e-4, 1);
+    work += (p + o->s.p[0]) / 2 * (1 / rho - 1 / o->s.rho[0]);
+    p = o->s.p[0];
+    if (p > 1e6) crush = p < 2e8 ? 1 + .5 * pow((2e8 - p) / 1.99e8, 2) : 1;
+    near(o->s.alpha[0], fmin(crush, old), 1e-8);
+    near(cbrt(o->s.damage[0]), porosity_broken(&o->m.porosity, o->s.alpha[0]), 1e-9);
+    near(o->s.u[0], work, 1e-3);
+  }
+  assert_true(o->s.alpha[0] > 1 && o->s.alpha[0] < 1.1);
+  one_free(o);
+}
+
+/* In elastic shear S grows with mu h^2/alpha, h = c_elastic/c of the solid, as the bulk modulus
+ * is K h^2/alpha; when pores crush, S of the bulk grows as alpha falls. The longitudinal wave has
+ * both moduli. */
+static void soft(void **state)
+{
+  const double shear[9] = {0, .5, 0, .5, 0, 0, 0, 0, 0},
+               squeeze[9] = {-1, 0, 0, 0, -1, 0, 0, 0, -1};
+  double h = 1000 / sqrt(30e9 / 2700), s;
+  One *o = one_new(PUMICE("1000."), 1800, 0);
+  (void)state;
+  o->k.damage = 0;
+  strain(o, shear, 1e-6, 10);
+  near(o->s.s[1], 20e9 * h * h / 1.5 * 1e-6, 1e-4);
+  near(o->s.cl[0], sqrt(1e6 + 4. / 3 * 20e9 * h * h / 1.5 / 1800), 1e-6);
+  s = o->s.s[1];
+  strain(o, squeeze, .03, 300);
+  assert_true(o->s.alpha[0] < 1.4);
+  near(o->s.s[1], s * 1.5 / o->s.alpha[0], 1e-6);
+  one_free(o);
+  o = one_new("name = \"d\"; eos = { form = \"liquid\"; rho0 = 2000.; c = 3000.; rho_min = 0.; };"
+              "strength = { shear_modulus = 2e3; form = \"porous\"; }; porosity = { form = "
+              "\"sirono\"; alpha_0 = 5.; K_0 = 4e3; p_m = 1.3e3; };",
+              400, 0);
+  strain(o, shear, .01, 10);
+  near(o->s.s[1], 2e3 * .01, 1e-9);
+  strain(o, shear, 1, 10);
+  near(sqrt(3) * root_j2(o), porosity_shear_strength(&o->m.porosity, &o->m.eos, 400), 1e-9);
+  one_free(o);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(confined),     cmocka_unit_test(von_mises),
       cmocka_unit_test(johnson_cook), cmocka_unit_test(tension_and_vapour),
       cmocka_unit_test(weak),         cmocka_unit_test(cracks),
-      cmocka_unit_test(acts_on)};
+      cmocka_unit_test(acts_on),      cmocka_unit_test(crushed),
+      cmocka_unit_test(soft)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

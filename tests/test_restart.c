@@ -12,6 +12,13 @@ static const char ROCK[] =
     "name = \"rock\"; eos = { form = \"murnaghan\"; rho0 = 1.; K = 1.; n = 2.; };"
     "strength = { shear_modulus = 1.; form = \"von_mises\"; Y = 0.1; };"
     "damage = { form = \"grady_kipp\"; k = 1e10; m = 5.; };";
+static const char PUMICE[] =
+    "name = \"p\"; eos = { form = \"murnaghan\"; rho0 = 1.3; K = 1.; n = 2.; heat_capacity = 0.1; "
+    "};"
+    "strength = { shear_modulus = 1.; form = \"johnson_cook\"; A = 0.05; B = 0.1; n = 0.5; T0 = "
+    "1.; };"
+    "damage = { form = \"grady_kipp\"; k = 1e10; m = 5.; };"
+    "porosity = { form = \"p_alpha\"; alpha_0 = 1.3; c_elastic = 0.5; p_e = 1e-3; p_s = 0.3; };";
 static const char WATER[] =
     "name = \"w\"; eos = { form = \"murnaghan\"; rho0 = 1.; K = 1.; n = 2.; };";
 
@@ -22,7 +29,7 @@ static int in_ball(const double *x, void *data)
 }
 
 /* Two balls that run into each other, in a row order that is not the tree's; flaws, two bodies,
- * two materials. */
+ * three materials, one of them porous and hot. */
 static Parts *collision(void)
 {
   double dx = .36;
@@ -34,13 +41,14 @@ static Parts *collision(void)
   int groups;
   Err err;
   assert_int_equal(part_add_material(p, "water", WATER, &err), 1);
+  assert_int_equal(part_add_material(p, "p", PUMICE, &err), 2);
   lab_lattice(dx, 4, 3, in_ball, NULL, x);
   for (long i = 0; i < p->n; i++) {
     long k = (i * 7919) % p->n, body = k % 2;
     p->id[i] = 1000 + k, p->body[i] = (int32_t)body;
     for (int d = 0; d < 3; d++) p->x[3 * i + d] = x[3 * (k / 2) + d] + (d == 0 ? body * 2.2 : 0);
     p->v[3 * i] = body ? -.3 : .3, p->v[3 * i + 1] = body ? -.1 : .1;
-    p->mat[i] = body && p->x[3 * i] > 2.2;
+    p->mat[i] = body ? p->x[3 * i] > 2.2 : 2 * (p->x[3 * i + 1] > 0);
     p->m[i] = dx * dx * dx, p->rho[i] = 1, p->h[i] = 2.2 * dx;
   }
   free(x);

@@ -23,7 +23,8 @@ static int alloc_state(Sim *sim)
 #undef CPU_ALLOC
   for (int k = 0; k < sim->slots; k++) {
 #define CPU_SLOT(MEMBER, WIDTH)                                                                    \
-  bad |= !(s->saved[k].MEMBER = calloc(n ? n * (WIDTH) : 1, sizeof(double)));
+  if (!backend_idle(sim, #MEMBER))                                                                 \
+    bad |= !(s->saved[k].MEMBER = calloc(n ? n * (WIDTH) : 1, sizeof(double)));
     SAVED_FIELDS(CPU_SLOT)
 #undef CPU_SLOT
   }
@@ -91,7 +92,7 @@ static int cpu_open(Sim *sim, const Parts *p, Err *err)
   memset(&sim->s, 0, sizeof sim->s);
   sim->s.n = p->n;
   sim->s.dimension = p->dimension;
-  sim->s.tables = sim->tables;
+  sim->s.rare = sim->rare;
   sim->s.material = sim->material;
   c->order = malloc((n + 1) * sizeof *c->order);
   c->record = malloc((n + 1) * 22 * sizeof(double));
@@ -138,7 +139,8 @@ static int columns_of(const Sim *sim, Column column[COLUMNS])
 #undef CPU_COLUMN
   for (int slot = 0; slot < sim->slots; slot++) {
 #define CPU_SLOT_COLUMN(MEMBER, WIDTH)                                                             \
-  column[n].array = (char *)s->saved[slot].MEMBER, column[n++].size = sizeof(double) * (WIDTH);
+  if (s->saved[slot].MEMBER)                                                                       \
+    column[n].array = (char *)s->saved[slot].MEMBER, column[n++].size = sizeof(double) * (WIDTH);
     SAVED_FIELDS(CPU_SLOT_COLUMN)
 #undef CPU_SLOT_COLUMN
   }

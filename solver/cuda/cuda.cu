@@ -3,7 +3,7 @@
  * Work is queued on one stream; the host waits for the list's length and for the step's limits. */
 #include "cuda.h"
 
-/* A kernel a pass; and, for runs without them, one without the code of tables, which takes half as
+/* A kernel a pass; and, for runs without rare laws, one without their code, which takes half as
  * many registers again. */
 #define CUDA_PASS(CAPITAL, NAME)                                                                   \
   static __global__ void pass_##NAME##_all(const State s, const Step k)                            \
@@ -14,10 +14,10 @@
 PASSES(CUDA_PASS)
 #undef CUDA_PASS
 #define CUDA_PASS(CAPITAL, NAME)                                                                   \
-  static __global__ void pass_##NAME##_formulas(State s, const Step k)                             \
+  static __global__ void pass_##NAME##_common(State s, const Step k)                               \
   {                                                                                                \
     long i = (long)blockIdx.x * blockDim.x + threadIdx.x;                                          \
-    s.tables = 0;                                                                                  \
+    s.rare = 0;                                                                                    \
     if (i < s.n) pass_##NAME(&s, &k, i);                                                           \
   }
 PASSES_EOS(CUDA_PASS)
@@ -29,14 +29,14 @@ static void cuda_pass(Sim *sim, int pass, const Step *step)
   CudaError *error = &c->error;
   const unsigned block = 128, grid = launch_blocks((size_t)sim->s.n, block);
   cuda_begin(sim, TIMER_LOCAL);
-  switch (pass + (pass >= PASS_EOS_FIRST && !sim->s.tables ? PASS_COUNT : 0)) {
+  switch (pass + (pass >= PASS_EOS_FIRST && !sim->rare ? PASS_COUNT : 0)) {
 #define CUDA_PASS(CAPITAL, NAME)                                                                   \
   case PASS_##CAPITAL: LAUNCH(pass_##NAME##_all, grid, block, 0, c->stream, sim->s, *step); break;
     PASSES(CUDA_PASS)
 #undef CUDA_PASS
 #define CUDA_PASS(CAPITAL, NAME)                                                                   \
   case PASS_##CAPITAL + PASS_COUNT:                                                                \
-    LAUNCH(pass_##NAME##_formulas, grid, block, 0, c->stream, sim->s, *step);                      \
+    LAUNCH(pass_##NAME##_common, grid, block, 0, c->stream, sim->s, *step);                        \
     break;
     PASSES_EOS(CUDA_PASS)
 #undef CUDA_PASS
@@ -109,7 +109,7 @@ static int cuda_open(Sim *sim, const Parts *p, Err *err)
   CudaError *error = &c->error;
   sim->own = c;
   memset(&sim->s, 0, sizeof sim->s);
-  sim->s.n = p->n, sim->s.dimension = p->dimension, sim->s.tables = sim->tables;
+  sim->s.n = p->n, sim->s.dimension = p->dimension, sim->s.rare = sim->rare;
   CHECK(cudaSetDevice(sim->card));
   CHECK(cudaStreamCreateWithFlags(&c->stream, cudaStreamNonBlocking));
   if (!launch_failed(error, err) && !look_at_card(sim, p, err) && !cuda_state_open(sim, p, err) &&

@@ -84,7 +84,8 @@ int cuda_columns(Sim *sim, CudaColumn column[CUDA_COLUMNS], int *all)
 #define STATE_MOVED(TYPE, MEMBER, WIDTH, ...) STATE_COLUMN(TYPE, MEMBER, WIDTH, MOVED)
 #define STATE_WORK(TYPE, MEMBER, WIDTH, ...)  STATE_COLUMN(TYPE, MEMBER, WIDTH, WORK)
 #define STATE_SLOT(MEMBER, WIDTH)                                                                  \
-  if (role == MOVED) column[n++] = {(void **)&s->saved[slot].MEMBER, WIDTH, (int)sizeof(double)};
+  if (role == MOVED && !backend_idle(sim, #MEMBER))                                                \
+    column[n++] = {(void **)&s->saved[slot].MEMBER, WIDTH, (int)sizeof(double)};
     ALL_FIELDS(STATE_MOVED)
     MOVED_FIELDS(STATE_MOVED)
     WORK_FIELDS(STATE_WORK)
