@@ -120,7 +120,7 @@ CFG
   true_that 'near(a, b, 1e-5)' a="$(relax --profile-only --method shells --nodes 200 b.h5 | tail -1 | cut -f1)" \
     b="$(relax --profile-only b.h5 | tail -1 | cut -f1)"
   for how in "--set density=sum" "--set density=miscible" "--freeze energy" "--freeze nothing" "--radial --rigid"; do
-    relax $how --max-time 2000s --proof 0 -o r.h5 b.h5 2>said
+    relax $how --max-time 1000s --proof 0 -o r.h5 b.h5 2>said
     true_that 'd < 0.15' d="$(sed -n 's/.*off the profile by \([^ ]*\) rms.*/\1/p' said)"
   done
   [ -z "$(field r.h5 Velocities | grep -v '^0$\|^-0$')" ]

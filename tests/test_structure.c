@@ -179,9 +179,10 @@ enum { BODIES = sizeof FIVE / sizeof *FIVE };
 
 static void test_five(void **state)
 {
+  const long cells[BODIES] = {220, 240, 300, 320, 300}; /* the error falls with their square */
   (void)state;
   for (int k = 0; k < BODIES; k++) {
-    Structure s = solve(&FIVE[k], 200), t = relax(&FIVE[k], 360);
+    Structure s = solve(&FIVE[k], 200), t = relax(&FIVE[k], cells[k]);
     print_message("body %d: R %.7g km, off by %.2g; p_c %.6g GPa, off by %.2g\n", k + 1,
                   surface(&s)->r / 1e3, surface(&t)->r / surface(&s)->r - 1, s.node[0].p / 1e9,
                   t.node[0].p / s.node[0].p - 1);
