@@ -68,6 +68,19 @@ static int open_common(Sim *sim, const Param *par, const Parts *p, const char *d
   return 0;
 }
 
+/* A porous particle without Distention must have the density of its bulk. */
+static int bulk_check(const Sim *sim, const Parts *p, long i, Err *err)
+{
+  const Material *m = &sim->material[p->mat[i]];
+  double rho0 = eos_rho0(&m->eos), alpha = material_distention(m);
+  if (p->rho[i] <= 0.5 * rho0 * (1 + 1 / alpha) || alpha <= 1) return 0;
+  return err_set(
+      err,
+      "particle %lld has no Distention, and with %g kg/m^3 it is as dense as the solid of "
+      "'%s': its bulk has %g",
+      (long long)p->id[i], p->rho[i], p->material[p->mat[i]].name, rho0 / alpha);
+}
+
 /* hand_over: the particles to the backend; what a material begins with where the file says nothing
  * (no such field, or 0, as it is where bodies were joined) is filled in before. */
 static int hand_over(Sim *sim, const Parts *p, Err *err)
@@ -81,7 +94,9 @@ static int hand_over(Sim *sim, const Parts *p, Err *err)
   for (long i = 0; !bad && i < p->n; i++) {
     const Material *m = &sim->material[p->mat[i]];
     if (T) T[i] = p->T && p->T[i] > 0 ? p->T[i] : material_heats(m) ? m->yield.johnson_cook.T0 : 0;
-    if (alpha) alpha[i] = p->alpha && p->alpha[i] >= 1 ? p->alpha[i] : material_distention(m);
+    if (!alpha) continue;
+    alpha[i] = p->alpha && p->alpha[i] >= 1 ? p->alpha[i] : material_distention(m);
+    if (!(p->alpha && p->alpha[i] >= 1)) bad = bulk_check(sim, p, i, err);
   }
   if (T) whole.T = T;
   if (alpha) whole.alpha = alpha;

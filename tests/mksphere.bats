@@ -108,6 +108,10 @@ setup() { cd "$BATS_TEST_TMPDIR"; }
   paste <(field b.h5 MaterialID) <(field b.h5 Density) <(field b.h5 Distention) <(field b.h5 Masses) | awk '
     { if ($1 ? $2 != 917*0.75 || $3 - 4/3 > 1e-12 || 4/3 - $3 > 1e-12 : $2 != 2700 || $3 != 1) exit 1; v += $4/$2 }
     END { q = v/(4/3*atan2(0, -1)*1e12) - 1; exit !(q < 1e-9 && q > -1e-9) }'
+  mksphere -n 100 --radius 1km --layer jsc1a -o own.h5 # pores of its own
+  paste <(field own.h5 Distention) <(field own.h5 Density) | awk '
+    function near(a, b) { return a/b - 1 < 1e-12 && 1 - a/b < 1e-12 }
+    { if (!near($1, 1.72) || !near($2, 2700/1.72)) exit 1 }'
   bad 1 "layer 2 has pores" relax b.h5
   bad 1 "layer 1 has pores" mksphere -n 100 --mass 1e20 --layer ice::pores=0.3 --hydrostatic
   bad 2 "pores=1 is not in 0 to 1" mksphere --mass 1 --layer ice::pores=1

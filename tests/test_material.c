@@ -196,8 +196,11 @@ static void mistakes(void **state)
 /* A number with a dimension is a text with its unit; every group names its source. */
 static void check_style(const char *name, const char *text)
 {
-  static const char *const bare[] = {"form", "source",  "a", "b",    "alpha",
-                                     "beta", "rho_min", "m", "crack"};
+  static const char *const bare[] = {
+      "form",       "source",     "a",         "b",          "alpha",    "beta",
+      "rho_min",    "m",          "crack",     "shear",      "friction", "friction_damaged",
+      "weak_limit", "weak_alpha", "weak_beta", "weak_gamma", "alpha_0",  "alpha_e",
+      "alpha_t",    "n1",         "n2"};
   config_t cfg;
   Err err;
   assert_int_equal(cfg_open_text(&cfg, text, name, &err), 0);
@@ -238,10 +241,12 @@ static void files(void **state)
   static const struct {
     const char *name;
     double c0, slope;
-  } T[] = {{"basalt", 3145, 1.50},  {"ice", 3214, 1.10},          {"ice_lange", 3214, 1.10},
-           {"granite", 2592, 1.45}, {"iron", 4051, 1.41},         {"aluminium", 5277, 1.465},
-           {"olivine", 6118, 1.16}, {"dunite", 6233, 1.50},       {"lucite", 2926, 1.32},
-           {"water", 1478, 3.75},   {"polycarbonate", 2776, 1.25}};
+  } T[] = {
+      {"basalt", 3145, 1.50},         {"ice", 3214, 1.10},           {"ice_lange", 3214, 1.10},
+      {"granite", 2592, 1.45},        {"iron", 4051, 1.41},          {"aluminium", 5277, 1.465},
+      {"olivine", 6118, 1.16},        {"dunite", 6233, 1.50},        {"lucite", 2926, 1.32},
+      {"water", 1478, 3.75},          {"polycarbonate", 2776, 1.25}, {"jsc1a", 3145, 1.50},
+      {"granite_collins", 2592, 1.45}};
   MaterialName *names;
   int n;
   (void)state;
@@ -311,6 +316,18 @@ static void finding(void **state)
   rmdir(dir);
 }
 
+/* 42 % pores; 001 has neither of these. */
+static void loose_and_collins(void **state)
+{
+  Material j = load("jsc1a"), g = load("granite_collins"), plain = load("granite");
+  PorousPoint at = porosity_eval(&j.porosity, &j.eos, 2700 / 1.72, 0, 0, 1.72);
+  (void)state;
+  assert_true(fabs(at.e.p) < 1e-3 && fabs(at.e.cs - 950) < 1e-6 && j.weak.limit == 0.85);
+  assert_true(porosity_curve(&j.porosity, 1.5e9) == 1 && j.damage.form == DAMAGE_NONE);
+  assert_true(g.yield.form == YIELD_COLLINS && g.damage.grady_kipp.shear == 0);
+  assert_memory_equal(&g.eos, &plain.eos, sizeof g.eos);
+}
+
 static void unknown(void **state)
 {
   MaterialName name;
@@ -349,6 +366,7 @@ int main(void)
       cmocka_unit_test(mistakes),
       cmocka_unit_test(files),
       cmocka_unit_test(table_1),
+      cmocka_unit_test(loose_and_collins),
       cmocka_unit_test(unknown),
       cmocka_unit_test(finding),
       cmocka_unit_test(of_a_snapshot),

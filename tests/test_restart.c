@@ -186,6 +186,11 @@ static void refused(void **state)
   assert_int_equal(sim_open(&sim, &par, p, lab_device(), &err), -1);
   assert_non_null(strstr(err.text, "gravity.every"));
   part_free(p);
+  p = collision(), par = lab_param("gravity.method=none", NULL); /* pores that are not there */
+  for (long i = 0; i < p->n; i++) p->rho[i] = 1.3;
+  assert_int_equal(sim_open(&sim, &par, p, lab_device(), &err), -1);
+  assert_non_null(strstr(err.text, "as dense as the solid of 'p': its bulk has 1"));
+  part_free(p);
 }
 
 int main(void)

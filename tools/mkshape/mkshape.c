@@ -114,6 +114,7 @@ static void read_layer(Layer *l, Shape *s, int k)
   if (material_parse(&m, l->text, l->name, &err)) err_die("%s", err.text);
   if (structure_density(&m.eos, o.energy, &l->rho, &err))
     err_die("layer '%s': %s", l->name, err.text);
+  pores = 1 - 1 / material_distention(&m);
   material_clear(&m);
   while ((word = strtok_r(NULL, ":", &rest))) {
     int bad = strncmp(word, "pores=", 6) ? unit_parse(word, "m", &s->end[k], &err)

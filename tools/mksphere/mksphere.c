@@ -133,6 +133,8 @@ static void read_layers(Body *b)
     if (!(b->text[k] = material_find(material, b->name[k], &err))) err_die("%s", err.text);
     if (material_parse(&b->material[k], b->text[k], b->name[k], &err)) err_die("%s", err.text);
     b->r.body.layer[k].material = &b->material[k];
+    if (!(b->r.body.layer[k].pores > 0)) /* a porous material's own */
+      b->r.body.layer[k].pores = 1 - 1 / material_distention(&b->material[k]);
   }
 }
 
