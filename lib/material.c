@@ -227,6 +227,8 @@ static int porous_consistent(const config_setting_t *root, const Material *m, co
     return cfg_where(err, config_setting_get_member(root, "strength"), label,
                      "the strength 'porous' needs the porosity 'sirono'");
   if (q->form == POROSITY_NONE) return 0;
+  if (m->yield.form == YIELD_REGOLITH)
+    return cfg_where(err, pores, label, "the strength 'regolith' opens pores of its own");
   if (eos_rho0(&m->eos) <= 0)
     wrong = "a gas has no pores";
   else if (q->c > 0 && q->form == POROSITY_SIRONO)
@@ -275,6 +277,9 @@ static int consistent(const config_setting_t *root, const Material *m, const cha
       m->damage.grady_kipp.shear > 0)
     return cfg_where(err, damage, label,
                      "collins has a strength for damaged rock of its own: 'shear' must be 0");
+  if (m->damage.form != DAMAGE_NONE &&
+      (m->yield.form == YIELD_REGOLITH || m->yield.form == YIELD_VISCOUS_REGOLITH))
+    return cfg_where(err, damage, label, "soil does not break: no 'damage' with this strength");
   if (m->damage.form != DAMAGE_NONE && m->mu <= 0)
     return cfg_where(err, damage, label, "'damage' needs a 'shear_modulus' above 0 in 'strength'");
   return porous_consistent(root, m, label, err);

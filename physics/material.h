@@ -46,6 +46,12 @@ HD int material_heats(const Material *m) { return m->yield.form == YIELD_JOHNSON
 /* material_porous: whether it can have pores. */
 HD int material_porous(const Material *m) { return m->porosity.form != POROSITY_NONE; }
 
+/* material_distends: whether it has a distention (field Distention): pores, or soil that opens. */
+HD int material_distends(const Material *m)
+{
+  return material_porous(m) || m->yield.form == YIELD_REGOLITH;
+}
+
 /* material_rare: whether it has laws that few runs need: a table, pores, strength beyond von Mises.
  * A GPU's passes without them need fewer registers. */
 HD int material_rare(const Material *m)

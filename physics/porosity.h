@@ -86,6 +86,7 @@ HD_CALL double porosity_speed(const Porosity *q, const Eos *e, double alpha)
 HD double porosity_stiffness(const Porosity *q, const Eos *e, double alpha)
 {
   double h = porosity_speed(q, e, alpha);
+  if (q->form == POROSITY_NONE) return 1;
   if (q->form == POROSITY_SIRONO) return pow(q->alpha0 / alpha, q->sirono.power);
   return h * h / alpha;
 }
@@ -213,7 +214,8 @@ HD_CALL PorousPoint porosity_eval(const Porosity *q, const Eos *e, double rho, d
   if (q->form != POROSITY_NONE && old > 1)
     return q->form == POROSITY_SIRONO ? porosity_dust(q, e, rho, old)
                                       : porosity_solve(q, e, rho, u, r, old);
-  solid.e = eos_eval(e, rho, u, r);
+  solid.e = eos_eval(e, old * rho, u, r);
+  if (old > 1) solid.e.p /= old, solid.alpha = old; /* soil that has opened */
   return solid;
 }
 

@@ -38,6 +38,8 @@ HD double yield_return(double stress, double limit)
 #include "yield/collins.h"
 #include "yield/johnson_cook.h"
 #include "yield/porous.h"
+#include "yield/regolith.h"
+#include "yield/viscous_regolith.h"
 
 /* X(CAPITAL, name): token strength.form, file yield/<name>.h, struct yield_<name>, function
  * yield_<name>. */
@@ -46,7 +48,10 @@ HD double yield_return(double stress, double limit)
   X(BENZ_ASPHAUG, benz_asphaug)                                                                    \
   X(DRUCKER_PRAGER, drucker_prager)                                                                \
   X(MOHR_COULOMB, mohr_coulomb)                                                                    \
-  X(LUNDBORG, lundborg) X(COLLINS, collins) X(JOHNSON_COOK, johnson_cook) X(POROUS, porous)
+  X(LUNDBORG, lundborg)                                                                            \
+  X(COLLINS, collins)                                                                              \
+  X(JOHNSON_COOK, johnson_cook)                                                                    \
+  X(POROUS, porous) X(REGOLITH, regolith) X(VISCOUS_REGOLITH, viscous_regolith)
 
 typedef enum {
   YIELD_NONE,

@@ -33,8 +33,8 @@ HD Sym passes_strain_rate(const double *g)
   return e;
 }
 
-/* matter_porous: whether i has pores. */
-HD int matter_porous(const State *s, const Material *m) { return s->rare && material_porous(m); }
+/* matter_porous: whether its matter has a distention. */
+HD int matter_porous(const State *s, const Material *m) { return s->rare && material_distends(m); }
 
 /* matter_alpha: the distention of i without load. */
 HD double matter_alpha(const State *s, const Material *m, long i)
@@ -94,7 +94,8 @@ HD double matter_stiff(const State *s, const Material *m, long i)
 HD_CALL double matter_porous_shear(const State *s, const Material *m, long i)
 {
   const double alpha = s->alpha[i];
-  if (m->porosity.form == POROSITY_SIRONO) return m->mu * matter_stiff(s, m, i);
+  if (m->porosity.form == POROSITY_SIRONO || !material_porous(m))
+    return m->mu * matter_stiff(s, m, i);
   return m->mu / alpha *
          porosity_share(&m->porosity, &m->eos, s->rho[i], s->u[i], s->p[i], alpha, s->divv[i] < 0);
 }
@@ -102,6 +103,7 @@ HD_CALL double matter_porous_shear(const State *s, const Material *m, long i)
 HD double matter_shear(const State *s, long i)
 {
   const Material *m = &s->material[s->mat[i]];
+  if (s->rare && m->yield.form == YIELD_VISCOUS_REGOLITH) return 0;
   return matter_porous(s, m) ? matter_porous_shear(s, m, i) : m->mu;
 }
 
@@ -162,12 +164,43 @@ HD double matter_factor(const State *s, const Material *m, long i)
   return s->rare ? matter_other_factor(s, m, i) : 1;
 }
 
+/* matter_open: soil that flows or is pulled apart takes up volume, so that p returns. */
+HD_CALL void matter_open(const State *s, const Material *m, long i, int strength)
+{
+  double p = s->p[i], bulk = s->rho[i] * s->cs[i] * s->cs[i] - p; /* dp/dln(alpha) */
+  YieldPoint at = matter_point(s, m, i);
+  double rise = yield_regolith_pressure(&m->yield.regolith, &at, bulk, m->mu) - p;
+  if (!(rise > 0)) return;
+  s->alpha[i] *= exp(rise / bulk);
+  matter_eos(s, i, s->ue[i], strength);
+}
+
+/* matter_slide: the stress of a viscous soil; its diffusion limits the step by a speed 8 eta/(rho
+ * h) on top of the sound's, dt <= 0.4 h/(16 eta/(rho h)). */
+HD_CALL void matter_slide(const State *s, const Material *m, long i, double dt)
+{
+  Sym e = passes_strain_rate(&s->g[9 * i]);
+  double third = (e.xx + e.yy + e.zz) / 3, rate, eta, left;
+  e.xx -= third, e.yy -= third, e.zz -= third;
+  rate = 2 * sqrt(tensor_j2(e)),
+  left = yield_soft(s->ue[i], m->melt) * matter_weak(s, m, s->rho[i]);
+  eta = yield_viscous_regolith_eta(&m->yield.viscous_regolith, s->p[i], rate, left);
+  passes_keep_stress(&s->s[6 * i], tensor_scale(e, 2 * eta));
+  s->cl[i] = s->cs[i] + 8 * eta / (s->rho[i] * s->h[i]);
+  s->strain[i] += dt * rate / 1.7320508075688773;
+}
+
 /* matter_yield: limits the deviatoric stress of i; what it gives up is plastic strain, and heat
  * where the law wants a temperature. At the end of a step, count = 1, these are added up, and heat
- * [J/kg], what viscosity made in it; else the stress alone is limited. */
-HD void matter_yield(const State *s, long i, int count, double heat)
+ * [J/kg], what viscosity made in it, of length dt; else the stress alone is limited. */
+HD void matter_yield(const State *s, long i, int count, double heat, double dt)
 {
   const Material *m = &s->material[s->mat[i]];
+  if (s->rare && m->yield.form == YIELD_VISCOUS_REGOLITH) {
+    matter_slide(s, m, i, count ? dt : 0);
+    return;
+  }
+  if (s->rare && m->yield.form == YIELD_REGOLITH) matter_open(s, m, i, 1);
   const int heats = s->rare && count && material_heats(m);
   Sym d = passes_stress(&s->s[6 * i]);
   double j2 = tensor_j2(d), f, strain;

@@ -222,7 +222,7 @@ HD void pass_advance(const State *s, const Step *k, long i)
     matter_eos(s, i, u + k->dt * (work + heat), k->strength);
   }
   if (s->rare && s->alpha) matter_compact(s, i, alpha, mu > 0, k->damage);
-  if (mu > 0) matter_yield(s, i, 1, k->dt * heat);
+  if (mu > 0) matter_yield(s, i, 1, k->dt * heat, k->dt);
   if (k->damage) passes_damage(s, i, k->dt);
   passes_pack(s, k, i, mu > 0, 0.5 * k->dt);
 }
@@ -285,7 +285,7 @@ HD void pass_local(const State *s, const Step *k, long i)
   passes_density(s, k, i);
   matter_eos(s, i, s->u[i], k->strength);
   if (s->rare && s->alpha) matter_compact(s, i, alpha, mu > 0, k->damage);
-  if (mu > 0) matter_yield(s, i, 0, 0);
+  if (mu > 0) matter_yield(s, i, 0, 0, 0);
   if (k->damage) passes_damage(s, i, 0);
   if (s->ds)
     passes_keep_stress(&s->ds[6 * i], passes_jaumann(passes_stress(&s->s[6 * i]), &s->g[9 * i],
@@ -361,7 +361,7 @@ HD void pass_settle(const State *s, const Step *k, long i)
   s->h[i] = h < k->h_min ? k->h_min : h > k->h_max ? k->h_max : h;
   matter_eos(s, i, s->u[i], k->strength);
   if (s->rare && s->alpha) matter_compact(s, i, alpha, solid, k->damage);
-  if (solid) matter_yield(s, i, 1, k->energy == 0 ? k->dt * s->dqdt[i] : 0);
+  if (solid) matter_yield(s, i, 1, k->energy == 0 ? k->dt * s->dqdt[i] : 0, k->dt);
 }
 
 /* pass_correct: divv, and the corrected velocity gradient g = raw C with C, the inverse of the

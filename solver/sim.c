@@ -62,7 +62,7 @@ static int open_common(Sim *sim, const Param *par, const Parts *p, const char *d
     const Material *m = &sim->material[k];
     sim->solid |= par->strength && m->mu > 0;
     sim->rare |= material_rare(m);
-    sim->porous |= material_porous(m);
+    sim->porous |= material_distends(m);
     sim->heated |= par->strength && material_heats(m);
   }
   return 0;

@@ -308,6 +308,59 @@ static void soft(void **state)
   one_free(o);
 }
 
+#define SOIL(MORE)                                                                                 \
+  "name = \"s\"; eos = { form = \"liquid\"; rho0 = 1850.; c = 20.; rho_min = 0.; };"               \
+  "strength = { shear_modulus = 5e5; cohesion = 2e3; friction = 0.4; " MORE "};"
+
+/* Bui et al. (2008), 0.4 rad, 2 kPa: sheared at constant volume soil with dilatancy gains
+ * pressure, by consistency dp = 3 b K dl, dl = G dgamma/(G + 9 a b K), and stays on the cone;
+ * without it p stays. Pulled apart it stays at the apex, c/tan(phi), and bears nothing. */
+static void regolith(void **state)
+{
+  const double shear[9] = {0, 1, 0, 0, 0, 0, 0, 0, 0}, pull[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  const double squeeze[9] = {-1, 0, 0, 0, -1, 0, 0, 0, -1}, t = tan(.4),
+               root = sqrt(9 + 12 * t * t);
+  const double a = t / root, k = 3 * 2e3 / root, bulk = 1850 * 400, g = 5e5;
+  (void)state;
+  for (int loose = 0; loose < 2; loose++) {
+    One *o = one_new(loose ? SOIL("form = \"regolith\"; dilatancy = 0.2;")
+                           : SOIL("form = \"regolith\";"),
+                     1850, 0);
+    double b = loose ? tan(.2) / sqrt(9 + 12 * tan(.2) * tan(.2)) : 0, p, first;
+    strain(o, squeeze, 2e-3, 10);
+    p = o->s.p[0], first = (k + 3 * a * p) / g; /* strain at which it yields */
+    near(p, bulk * 6e-3, 1e-2);
+    strain(o, shear, .02, 2000);
+    near(o->s.p[0], p + 3 * b * bulk * g * (.02 - first) / (g + 9 * a * b * bulk), 1e-2);
+    near(root_j2(o), k + 3 * a * o->s.p[0], 1e-9);
+    assert_true(loose ? o->s.alpha[0] > 1.001 : o->s.alpha[0] == 1);
+    strain(o, pull, .1, 1000);
+    near(o->s.p[0], -2e3 / t, 1e-3);
+    assert_true(root_j2(o) < 1 && o->s.alpha[0] > 1.2);
+    one_free(o);
+  }
+}
+
+/* A viscous soil: S = 2 eta e while it creeps, c + p tan(phi) when it slides, nothing under
+ * tension; the plastic strain is all of it. */
+static void viscous(void **state)
+{
+  const double slow[9] = {0, .1, 0, .1, 0, 0, 0, 0, 0}, fast[9] = {0, 1e3, 0, 1e3, 0, 0, 0, 0, 0};
+  One *o = one_new(SOIL("form = \"viscous_regolith\"; viscosity = 2e3;"), 1860, 0);
+  double p = o->s.p[0];
+  (void)state;
+  strain(o, slow, 1e-3, 10);
+  near(o->s.s[1], 2 * 2e3 * .1, 1e-12);
+  near(o->s.cl[0], o->s.cs[0] + 8 * 2e3 / 1860, 1e-12);
+  near(o->s.strain[0], .2 * 1e-3 / sqrt(3), 1e-9);
+  strain(o, fast, 1e-6, 10);
+  near(root_j2(o), 2e3 + p * tan(.4), 1e-9);
+  o->s.rho[0] = 1800;
+  strain(o, fast, 1e-6, 1);
+  assert_true(root_j2(o) == 0);
+  one_free(o);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -315,6 +368,7 @@ int main(void)
       cmocka_unit_test(johnson_cook), cmocka_unit_test(tension_and_vapour),
       cmocka_unit_test(weak),         cmocka_unit_test(cracks),
       cmocka_unit_test(acts_on),      cmocka_unit_test(crushed),
-      cmocka_unit_test(soft)};
+      cmocka_unit_test(soft),         cmocka_unit_test(regolith),
+      cmocka_unit_test(viscous)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -27,6 +27,9 @@ static Yield law(int form)
   if (form == YIELD_COLLINS) y.collins = (struct yield_collins){90e6, 2, 1.5e9, 1e5, 0.8};
   if (form == YIELD_JOHNSON_COOK)
     y.johnson_cook = (struct yield_johnson_cook){792e6, 510e6, .26, .014, 1, 1.03, 298, 1793, .9};
+  if (form == YIELD_POROUS) y.porous.factor = 1;
+  if (form == YIELD_REGOLITH) y.regolith = (struct yield_regolith){5e6, 0.6, 0};
+  if (form == YIELD_VISCOUS_REGOLITH) y.viscous_regolith.viscosity = 1;
   return y;
 }
 
@@ -35,7 +38,7 @@ static double returned(const Yield *y, Sym stress, double damage)
 {
   double p = -(stress.xx + stress.yy + stress.zz) / 3;
   Sym s = {stress.xx + p, stress.xy, stress.xz, stress.yy + p, stress.yz, stress.zz + p};
-  YieldPoint at = {s, tensor_j2(s), p, damage, 1, 1, 0, 0, 298};
+  YieldPoint at = {s, tensor_j2(s), p, damage, 1, 1, 0, 0, 298, 1e6};
   double f = yield_factor(y, &at);
   assert_true(f >= 0 && f <= 1);
   return f;
@@ -64,7 +67,7 @@ static Sym stress(double equivalent)
 static double after(const Yield *y, double equivalent, double u, double melt)
 {
   Sym s = stress(equivalent);
-  YieldPoint at = {s, tensor_j2(s), 1e9, 0, yield_soft(u, melt), 1, 0, 0, 298};
+  YieldPoint at = {s, tensor_j2(s), 1e9, 0, yield_soft(u, melt), 1, 0, 0, 298, 1e6};
   double f = yield_factor(y, &at);
   assert_true(f >= 0 && f <= 1);
   return sqrt(3 * tensor_j2(tensor_scale(s, f)));
@@ -109,6 +112,7 @@ static void melting(void **state)
   for (int form = YIELD_NONE + 1; form < YIELD_COUNT; form++) {
     Yield y = law(form);
     double cold = after(&y, far, 0, 0);
+    if (form == YIELD_VISCOUS_REGOLITH) continue; /* its stress is not returned but made */
     assert_true(cold > 0 && cold < far);
     for (double x = 0; x < 1; x += 0.1) {
       double got = after(&y, far, x * melt, melt), part = 1 - x;
@@ -125,7 +129,7 @@ static void elastic(void **state)
 {
   Yield y = law(YIELD_NONE);
   Sym s = stress(1e20);
-  YieldPoint at = {s, tensor_j2(s), 0, 0.5, 0, 1, 0, 0, 0};
+  YieldPoint at = {s, tensor_j2(s), 0, 0.5, 0, 1, 0, 0, 0, 1e6};
   (void)state;
   assert_true(yield_factor(&y, &at) == 1);
 }
@@ -209,7 +213,7 @@ static void all_planes(void **state)
 static double strength(const Yield *y, double p, double damage, double soft, double weak)
 {
   Sym s = {0, 1e15, 0, 0, 0, 0};
-  YieldPoint at = {s, tensor_j2(s), p, damage, soft, weak, 0, 0, 0};
+  YieldPoint at = {s, tensor_j2(s), p, damage, soft, weak, 0, 0, 0, 1e6};
   return 1e15 * yield_factor(y, &at);
 }
 
@@ -283,7 +287,7 @@ static void tension(void **state)
 static double flow(const Yield *y, double strain, double rate, double T)
 {
   Sym s = {0, 1e15, 0, 0, 0, 0};
-  YieldPoint at = {s, tensor_j2(s), 0, 0, 1, 1, strain, rate, T};
+  YieldPoint at = {s, tensor_j2(s), 0, 0, 1, 1, strain, rate, T, 1e6};
   return sqrt(3) * 1e15 * yield_factor(y, &at);
 }
 
