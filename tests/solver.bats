@@ -149,7 +149,7 @@ same_files() {
 }
 
 @test "a time step that collapses: id, state, last good checkpoint" {
-  bad 1 "time step collapsed to" solver -o run --end +3000s -s step.min=1.8 -s output.checkpoint_every=0 ../s.h5
+  bad 1 "time step collapsed to" solver -o run --end +3000s -s step.min=2.09 -s output.checkpoint_every=0 ../s.h5
   [[ $output == *": particle "*" of body "*"rho "*"neighbours; the last good checkpoint is 'run/checkpoint.h5'" ]]
   grep -q '^failed: the time step collapsed' run/run.log
   [ "$(number run/checkpoint.h5 /Header/Time)" != "$(number run/snap_0000.h5 /Header/Time)" ]
