@@ -52,10 +52,10 @@ void backend_look(Sim *sim, int64_t id, char *text, size_t size)
 {
   const State *s = &sim->s;
   const long i = find(sim, id);
-  double x[3], v[3], rho, u, p, h, damage;
+  double x[3], v[3], rho, u, p, h, damage = 0; /* 0: a run without has no such array */
   int32_t body, near;
 #define BACKEND_GET(TO, MEMBER, WIDTH)                                                             \
-  sim->b->copy(sim, TO, s->MEMBER + (WIDTH)*i, (WIDTH) * sizeof *s->MEMBER, NULL)
+  (s->MEMBER && sim->b->copy(sim, TO, s->MEMBER + (WIDTH)*i, (WIDTH) * sizeof *s->MEMBER, NULL))
   snprintf(text, size, "particle %lld", (long long)id);
   if (i < 0 || BACKEND_GET(x, x, 3) || BACKEND_GET(v, v, 3) || BACKEND_GET(&rho, rho, 1) ||
       BACKEND_GET(&u, u, 1) || BACKEND_GET(&p, p, 1) || BACKEND_GET(&h, h, 1) ||

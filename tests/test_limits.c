@@ -6,6 +6,9 @@
 #include "lab.h"
 
 static const char GAS[] = "name = \"gas\"; eos = { form = \"ideal\"; gamma = 1.4; };";
+static const char JELLY[] =
+    "name = \"jelly\"; eos = { form = \"murnaghan\"; rho0 = 1.; K = 1.; n = 2.; };"
+    "strength = { shear_modulus = 1.; form = \"none\"; };";
 
 static int in_ball(const double *x, void *data)
 {
@@ -13,12 +16,12 @@ static int in_ball(const double *x, void *data)
   return x[0] * x[0] + x[1] * x[1] + x[2] * x[2] < 1;
 }
 
-/* A ball of gas with energy u that expands at the rate `hubble`. */
-static Parts *ball(double u, double hubble)
+/* A ball with energy u that expands at the rate `hubble`. */
+static Parts *ball_of(const char *material, double u, double hubble)
 {
   double dx = .31;
   long n = lab_lattice(dx, 5, 3, in_ball, NULL, NULL);
-  Parts *p = lab_parts(n, 3, GAS);
+  Parts *p = lab_parts(n, 3, material);
   lab_lattice(dx, 5, 3, in_ball, NULL, p->x);
   for (long i = 0; i < n; i++) {
     for (int d = 0; d < 3; d++) p->v[3 * i + d] = hubble * p->x[3 * i + d];
@@ -26,6 +29,8 @@ static Parts *ball(double u, double hubble)
   }
   return p;
 }
+
+static Parts *ball(double u, double hubble) { return ball_of(GAS, u, hubble); }
 
 /* The `steps`-th step of a run; checks that dt, limit and particle agree with the state before
  * it. */
@@ -99,7 +104,7 @@ static void landing(void **state)
 
 static void broken(int what, const char *message)
 {
-  Parts *p = ball(1, 0);
+  Parts *p = ball_of(JELLY, 1, 0);
   Param par = lab_param("gravity.method=none", NULL);
   Sim sim;
   Err err;
