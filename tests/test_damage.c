@@ -14,7 +14,7 @@
 #define PI 3.14159265358979323846
 
 static const double K = 26.7e9, MU = 22.7e9, RHO = 2700; /* basalt, Benz & Asphaug (1999) */
-static const struct damage_grady_kipp BASALT = {5e34, 8.5, 0.4, 1};
+static const struct damage_grady_kipp BASALT = {.k = 5e34, .m = 8.5, .crack = 0.4, .shear = 1};
 
 /* 0.4 times the longitudinal wave speed, 4593 m/s; 001 eq. 24 would give 36 in other units. */
 static void crack_speed(void **state)
@@ -122,10 +122,10 @@ static void grady_kipp(void **state)
   static const struct {
     struct damage_grady_kipp of;
     double sigma[4];
-  } T[] = {{{5e34, 8.5, 0.4, 1}, {2.223, 7.390, 24.57, 81.68}},
-           {{4e35, 9, 0.4, 1}, {2.869, 9.071, 28.69, 90.71}},
-           {{5e34, 8, 0.4, 1}, {1.392, 4.889, 17.17, 60.28}},
-           {{1e61, 16, 0.4, 1}, {5.209, 10.78, 22.30, 46.14}}};
+  } T[] = {{{.k = 5e34, .m = 8.5, .crack = 0.4, .shear = 1}, {2.223, 7.390, 24.57, 81.68}},
+           {{.k = 4e35, .m = 9, .crack = 0.4, .shear = 1}, {2.869, 9.071, 28.69, 90.71}},
+           {{.k = 5e34, .m = 8, .crack = 0.4, .shear = 1}, {1.392, 4.889, 17.17, 60.28}},
+           {{.k = 1e61, .m = 16, .crack = 0.4, .shear = 1}, {5.209, 10.78, 22.30, 46.14}}};
   static const double R[] = {1e-2, 1, 1e2, 1e4};
   double young = 9 * K * MU / (3 * K + MU);
   (void)state;
