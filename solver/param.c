@@ -149,6 +149,18 @@ int param_set(Param *p, const char *assignment, Err *err)
                  name ? name : "", name ? "'?)" : "");
 }
 
+const char *param_text(const Param *p, const char *key, char *buf, int size)
+{
+  for (int g = 0; g < GROUPS; g++) {
+    size_t length = strlen(groups[g].name);
+    if (strncmp(key, groups[g].name, length) || (length && key[length] != '.')) continue;
+    for (int r = 0; r < groups[g].n; r++)
+      if (strcmp(key + length + (length > 0), groups[g].rows[r].name) == 0)
+        return cfg_text(&groups[g].rows[r], p, buf, size);
+  }
+  return NULL;
+}
+
 int param_record(const Param *p, Parts *parts, Err *err)
 {
   Param standard;

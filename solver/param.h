@@ -38,6 +38,10 @@ int param_read(Param *p, const char *path, Err *err);
 /* param_set: one "key=value" of the command line, key with its group: "gravity.theta=0.5". */
 int param_set(Param *p, const char *assignment, Err *err);
 
+/* param_text: the value of a key (with its group, "gravity.theta") as text; NULL if there is no
+ * such key. */
+const char *param_text(const Param *p, const char *key, char *buf, int size);
+
 /* param_record: every setting, its value and whether it was given, into the snapshot's /Parameters.
  */
 int param_record(const Param *p, Parts *parts, Err *err);

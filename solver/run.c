@@ -6,6 +6,7 @@
 #include "../lib/progress.h"
 #include "../lib/snap.h"
 #include "../lib/unit.h"
+#include "conflict.h"
 #include "output.h"
 #include "profile.h"
 #include "run.h"
@@ -47,6 +48,7 @@ static int fresh(Run *r, const Param *par, Err *err)
   if (part_history(r->parts, r->o->command, err) || param_record(par, r->parts, err)) return -1;
   if (part_set_number(r->parts, "run", "StartTime", r->parts->time, err)) return -1;
   if (sim_open(&r->sim, par, r->parts, r->o->device, err)) return -1;
+  if (conflict_unused(par, &r->sim, err)) return -1;
   r->sim.profile = r->o->profile;
   if (output_claim(&r->out, r->o->dir, err) || vacant(r->o, err)) return -1;
   if (output_open(&r->out, r->parts->time, r->o->every, r->o->end, err)) return -1;

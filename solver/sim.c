@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "../lib/material.h"
+#include "conflict.h"
 #include "sim.h"
 
 static const char *const bad_names[] = {"nothing",
@@ -49,8 +50,6 @@ static int open_common(Sim *sim, const Param *par, const Parts *p, const char *d
     if (p->body[i] < 0 || p->body[i] >= BODIES)
       return err_set(err, "particle %lld is of body %d: damping knows bodies 0 to %d",
                      (long long)p->id[i], (int)p->body[i], BODIES - 1);
-  if (par->gravity_every > 1 && integrator_of(par->integrator) != &integrator_leapfrog)
-    return err_set(err, "gravity.every = %d needs integrator leapfrog", par->gravity_every);
   sim->par = *par;
   sim->pull_due = 1;
   sim->time = p->time;
@@ -65,7 +64,8 @@ static int open_common(Sim *sim, const Param *par, const Parts *p, const char *d
     sim->porous |= material_distends(m);
     sim->heated |= par->strength && material_heats(m);
   }
-  return 0;
+  sim->s.dimension = p->dimension;
+  return conflict_check(par, sim, err);
 }
 
 /* A porous particle without Distention must have the density of its bulk. */

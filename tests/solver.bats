@@ -184,6 +184,7 @@ refused() {
   bad 1 "nowhere.cfg" solver -c nowhere.cfg -o run --end +1s ../s.h5
   bad 2 "unknown key 'thet' (did you mean 'theta'?)" solver -o run --end +1s -s gravity.thet=1 ../s.h5
   bad 2 "unknown group 'gravty' (did you mean 'gravity'?)" solver -o run --end +1s -s gravty.theta=1 ../s.h5
+  bad 1 "gravity.theta = 0.5 has no effect: gravity.method = none" solver -o run --end +1s -s gravity.method=none -s gravity.theta=0.5 ../s.h5
   bad 2 "outside" solver -o run --end +1s -s gravity.theta=-1 ../s.h5
   bad 2 "none of cubic_spline" solver -o run --end +1s -s kernel=gauss ../s.h5
   bad 2 "not of the form key=value" solver -o run --end +1s -s kernel ../s.h5

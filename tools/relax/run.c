@@ -11,6 +11,7 @@
 #include "../../lib/progress.h"
 #include "../../lib/snap.h"
 #include "../../lib/unit.h"
+#include "../../solver/conflict.h"
 #include "run.h"
 
 static const double SAVE_EVERY = 60; /* s of the wall clock */
@@ -133,6 +134,7 @@ static int advance(Body *b, const Options *o, const Plan *plan, Stage *s, Err *e
   rc = plan->restart ? sim_restart(&sim, &plan->par, b->p, o->device, err)
                      : sim_open(&sim, &plan->par, b->p, o->device, err);
   if (rc) return -1;
+  if (plan->par.damping > 0) rc = conflict_unused(&plan->par, &sim, err);
   while (!rc && !done && sim.time < plan->end) {
     double next = s->start + every * (floor((sim.time - s->start) / every * (1 + 1e-12)) + 1);
     rc = sim_advance(&sim, fmin(next, plan->end), &step, err);

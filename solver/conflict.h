@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Settings that do not go together: a row here, and a run that has them is refused with one line
+ * that says which and why. In a condition p is the Param, s the Sim with what its materials are
+ * (solid, rare, porous, heated, s.dimension). */
+#ifndef CONFLICT_H
+#define CONFLICT_H
+
+#include "sim.h"
+
+/* C(key, other key, condition, why): both cannot be as they are. */
+/* clang-format off */
+#define CONFLICTS(C) \
+  C("gravity.every", "integrator", p->gravity_every > 1 && integrator_of(p->integrator) != &integrator_leapfrog, \
+    "only leapfrog kicks with gravity in steps of its own") \
+  C("step.max", "step.min", p->step_max > 0 && p->step_max <= p->step_min, "no step is left between the two")
+
+/* U(key, condition, because): the key, when it is not at its default, has no effect on this run
+ * because of `because`: a key, whose value is then said, or a reason in words. */
+#define UNUSED_SETTINGS(U) \
+  U("density_floor", p->density != PARAM_CONTINUITY && p->density_floor <= 1, "density") \
+  U("gravity.theta", p->gravity != PARAM_TREE, "gravity.method") \
+  U("gravity.G", p->gravity == PARAM_NONE, "gravity.method") \
+  U("gravity.every", p->gravity == PARAM_NONE, "gravity.method") \
+  U("smoothing.neighbours", p->smoothing != PARAM_NEIGHBOURS, "smoothing.mode") \
+  U("smoothing.min", p->smoothing == PARAM_FIXED, "smoothing.mode") \
+  U("smoothing.max", p->smoothing == PARAM_FIXED, "smoothing.mode") \
+  U("step.error", integrator_of(p->integrator) != &integrator_rk2_adaptive, "integrator") \
+  U("damping.radial", !(p->damping > 0), "damping.rate")
+/* clang-format on */
+
+/* conflict_check: the first row of CONFLICTS that holds, as `a = 1 cannot go with b = 2: why`; 0 if
+ * there is none, else -1. sim_open calls it. */
+int conflict_check(const Param *p, const Sim *s, Err *err);
+
+/* conflict_unused: the same for UNUSED_SETTINGS, as `a = 1 has no effect: b = 2`. Programs call it
+ * after sim_open; so tests and other users of the library may leave such keys set. */
+int conflict_unused(const Param *p, const Sim *s, Err *err);
+
+#endif
