@@ -116,15 +116,17 @@ static int in_range(const CfgRow *row, double x, Err *err)
   if (!isfinite(x)) return err_set(err, "'%s' must be finite", row->name);
   if (row->min > row->max || (x >= row->min && x <= row->max)) return 0;
   return err_set(err, "'%s' = %g is outside %g .. %g%s%s", row->name, x, row->min, row->max,
-                 row->type == CFG_REAL && strcmp(row->unit, "1") ? " " : "",
-                 row->type == CFG_REAL && strcmp(row->unit, "1") ? row->unit : "");
+                 row->type != CFG_INT && strcmp(row->unit, "1") ? " " : "",
+                 row->type != CFG_INT && strcmp(row->unit, "1") ? row->unit : "");
 }
 
 static int store_number(const CfgRow *row, double x, void *into, Err *err)
 {
   if (row->type != CFG_REAL && row->type != CFG_INT)
     return err_set(err, "'%s' must be %s", row->name,
-                   row->type == CFG_BOOL ? "true or false" : "a text in quotes");
+                   row->type == CFG_BOOL     ? "true or false"
+                   : row->type == CFG_VECTOR ? "a list of three numbers"
+                                             : "a text in quotes");
   if (in_range(row, x, err)) return -1;
   if (row->type == CFG_REAL) {
     *(double *)target(row, into) = x;
@@ -143,10 +145,18 @@ static int store_bool(const CfgRow *row, int x, void *into, Err *err)
   return 0;
 }
 
+static int store_vector(const CfgRow *row, const double x[3], void *into, Err *err)
+{
+  for (int d = 0; d < 3; d++)
+    if (in_range(row, x[d], err)) return -1;
+  memcpy(target(row, into), x, 3 * sizeof *x);
+  return 0;
+}
+
 static int store_text(const CfgRow *row, const char *text, void *into, Err *err)
 {
   Err why;
-  double x;
+  double x, v[3];
   long count;
   int k;
   switch (row->type) {
@@ -171,8 +181,36 @@ static int store_text(const CfgRow *row, const char *text, void *into, Err *err)
     if (k < 0) return err_set(err, "'%s': %s", row->name, why.text);
     *(int *)target(row, into) = k;
     return 0;
+  case CFG_VECTOR:
+    if (unit_list(text, row->unit, 3, v, &why))
+      return err_set(err, "'%s': %s", row->name, why.text);
+    return store_vector(row, v, into, err);
   }
   return err_set(err, "'%s' has no type", row->name);
+}
+
+/* A list of three numbers or texts. */
+static int store_list(const CfgRow *row, const config_setting_t *s, void *into, Err *err)
+{
+  Err why;
+  double x[3];
+  if (row->type != CFG_VECTOR) return err_set(err, "'%s' must be a single value", row->name);
+  if (config_setting_length(s) != 3)
+    return err_set(err, "'%s' must be a list of three numbers", row->name);
+  for (unsigned d = 0; d < 3; d++) {
+    const config_setting_t *e = config_setting_get_elem(s, d);
+    const char *text = config_setting_get_string(e);
+    if (text) {
+      if (unit_parse(text, row->unit, &x[d], &why))
+        return err_set(err, "'%s': %s", row->name, why.text);
+    } else if (config_setting_is_number(e)) {
+      x[d] = config_setting_type(e) == CONFIG_TYPE_FLOAT ? config_setting_get_float(e)
+                                                         : (double)config_setting_get_int64(e);
+    } else {
+      return err_set(err, "'%s' must be a list of three numbers", row->name);
+    }
+  }
+  return store_vector(row, x, into, err);
 }
 
 static int store_setting(const CfgRow *row, const config_setting_t *s, void *into, Err *err)
@@ -183,6 +221,8 @@ static int store_setting(const CfgRow *row, const config_setting_t *s, void *int
   case CONFIG_TYPE_FLOAT: return store_number(row, config_setting_get_float(s), into, err);
   case CONFIG_TYPE_BOOL: return store_bool(row, config_setting_get_bool(s), into, err);
   case CONFIG_TYPE_STRING: return store_text(row, config_setting_get_string(s), into, err);
+  case CONFIG_TYPE_ARRAY:
+  case CONFIG_TYPE_LIST: return store_list(row, s, into, err);
   default: return err_set(err, "'%s' must be a single value", row->name);
   }
 }
@@ -238,15 +278,27 @@ int cfg_set(const CfgRow *rows, int n, void *into, const char *key, const char *
   return unknown_key(key, rows, n, NULL, 0, err);
 }
 
+/* A number as short as it can be read back. */
+static int number_text(double x, char *buf, int size)
+{
+  int digits = 15, length;
+  do length = snprintf(buf, (size_t)size, "%.*g", digits, x);
+  while (digits++ < 17 && strtod(buf, NULL) != x);
+  return length;
+}
+
 const char *cfg_text(const CfgRow *row, const void *from, char *buf, int size)
 {
   const void *at = (const char *)from + row->offset;
   const char *word = row->unit;
-  int digits = 15, skip;
+  int skip, length = 0;
   switch (row->type) {
-  case CFG_REAL:
-    do snprintf(buf, (size_t)size, "%.*g", digits, *(const double *)at);
-    while (digits++ < 17 && strtod(buf, NULL) != *(const double *)at);
+  case CFG_REAL: number_text(*(const double *)at, buf, size); break;
+  case CFG_VECTOR:
+    for (int d = 0; d < 3 && length < size - 1; d++) {
+      length += number_text(((const double *)at)[d], buf + length, size - length);
+      if (d < 2 && length < size - 1) buf[length++] = ',', buf[length] = 0;
+    }
     break;
   case CFG_INT: snprintf(buf, (size_t)size, "%d", *(const int *)at); break;
   case CFG_BOOL: snprintf(buf, (size_t)size, "%s", *(const int *)at ? "true" : "false"); break;

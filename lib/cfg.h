@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* libconfig files read by rows of parameters. Every mistake is `file:line: ...`: syntax, unknown
  * key (with the nearest known), wrong type, missing key, value out of range, wrong unit. Integers
- * are accepted where a float is meant; a value may be a string with a unit ("2.7 g/cc"). */
+ * are accepted where a float is meant; a value may be a string with a unit ("2.7 g/cc"). A
+ * vector is a list of three such values or a text "X,Y,Z". */
 #ifndef CFG_H
 #define CFG_H
 
@@ -9,15 +10,17 @@
 #include <libconfig.h>
 #include "err.h"
 
-typedef enum { CFG_REAL, CFG_INT, CFG_BOOL, CFG_TEXT, CFG_CHOICE } CfgType;
+typedef enum { CFG_REAL, CFG_INT, CFG_BOOL, CFG_TEXT, CFG_CHOICE, CFG_VECTOR } CfgType;
 
 typedef struct {
   const char *name;
-  CfgType type;      /* targets: double, int, int, char[64], int (index into the words of unit) */
-  size_t offset;     /* offsetof in the struct that is filled */
-  const char *unit;  /* CFG_REAL: SI unit (see unit.h), "1" for none; CFG_CHOICE: "a|b|c" */
+  CfgType type;     /* targets: double, int, int, char[64], int (index into the words of unit),
+                        double[3] */
+  size_t offset;    /* offsetof in the struct that is filled */
+  const char *unit; /* CFG_REAL, CFG_VECTOR: SI unit (see unit.h), "1" for none; CFG_CHOICE: "a|b|c"
+                      */
   const char *value; /* default as a user would type it; NULL: the key must be there */
-  double min, max;   /* allowed range of CFG_REAL and CFG_INT, inclusive; min > max: any */
+  double min, max;   /* allowed range of numbers, inclusive; min > max: any */
   const char *meaning;
 } CfgRow;
 

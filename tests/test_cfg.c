@@ -17,6 +17,7 @@ typedef struct {
   double rho0, k;
   int steps, gravity, kernel;
   char name[64];
+  double pull[3];
 } Run;
 
 static const CfgRow ROWS[] = {
@@ -27,6 +28,7 @@ static const CfgRow ROWS[] = {
     {"kernel", CFG_CHOICE, offsetof(Run, kernel), "cubic|quintic|wendland", "quintic", 1, 0,
      "kernel"},
     {"name", CFG_TEXT, offsetof(Run, name), NULL, "run", 1, 0, "label"},
+    {"pull", CFG_VECTOR, offsetof(Run, pull), "m/s", "1,2km/s,-3", -1e4, 1e4, "a vector"},
 };
 static const char *const ALSO[] = {"eos"};
 
@@ -76,6 +78,27 @@ static void values(void **state)
                       "Ceres, wet");
 }
 
+/* A vector is a list or a text of three quantities; what is printed reads back. */
+static void vectors(void **state)
+{
+  static const double want[3] = {1, 2000, -3};
+  Run run = read_good("rho0 = 1");
+  char text[128];
+  Err err;
+  (void)state;
+  assert_memory_equal(run.pull, want, sizeof want);
+  run = read_good("rho0 = 1; pull = (1, \"2 km/s\", -3.0)");
+  assert_memory_equal(run.pull, want, sizeof want);
+  run = read_good("rho0 = 1; pull = [1, 2000, -3]");
+  assert_memory_equal(run.pull, want, sizeof want);
+  assert_string_equal(cfg_text(&ROWS[6], &run, text, sizeof text), "1,2000,-3");
+  run.pull[0] = 1. / 3;
+  cfg_text(&ROWS[6], &run, text, sizeof text);
+  run.pull[0] = 0;
+  assert_int_equal(cfg_set(ROWS, N(ROWS), &run, "pull", text, &err), 0);
+  assert_true(run.pull[0] == 1. / 3 && run.pull[2] == -3);
+}
+
 /* Each mistake, where it is, and what would have been right. */
 static void refused(void **state)
 {
@@ -106,6 +129,12 @@ static void refused(void **state)
       {"/* \n3000000000 */ # 3000000000\nname = \"x\\\"\n 3000000000\";\n// 9\nrho0 = 0x80000000;",
        "a.cfg:6: 0x80000000 is too wide"},
       {"rho0 = 1;\nk = 10000000000000000000L;", "a.cfg:2: 10000000000000000000 is too wide"},
+      {"rho0 = 1;\npull = [1, 2];", "a.cfg:2: 'pull' must be a list of three numbers"},
+      {"rho0 = 1;\npull = (1, 2, true);", "a.cfg:2: 'pull' must be a list of three numbers"},
+      {"rho0 = 1;\npull = 3;", "a.cfg:2: 'pull' must be a list of three numbers"},
+      {"rho0 = 1;\npull = \"1,2\";", "a.cfg:2: 'pull': '1,2': 3 numbers between commas"},
+      {"rho0 = 1;\npull = (1, 2, \"3 kg\");", "a.cfg:2: 'pull': '3 kg': wanted a unit like 'm/s'"},
+      {"rho0 = 1;\npull = [1.0, 2.0, 1e5];", "'pull' = 100000 is outside -10000 .. 10000 m/s"},
       {"@include \"other.cfg\"", "a.cfg:1: @include is not supported"},
       {"rho0 = 1.0;\nrho0 = 2.0;", "a.cfg:2: duplicate setting name"},
       {"rho0 = 1.0;\nk = = 2;", "a.cfg:2: syntax error"},
@@ -200,8 +229,9 @@ static void set_and_text(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(defaults), cmocka_unit_test(values), cmocka_unit_test(refused),
-      cmocka_unit_test(groups),   cmocka_unit_test(files),  cmocka_unit_test(set_and_text),
+      cmocka_unit_test(defaults),     cmocka_unit_test(values), cmocka_unit_test(vectors),
+      cmocka_unit_test(refused),      cmocka_unit_test(groups), cmocka_unit_test(files),
+      cmocka_unit_test(set_and_text),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
