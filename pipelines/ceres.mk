@@ -42,7 +42,7 @@ here := $(dir $(this))
 include $(here)common.mk
 bodies := $(OUT)/N$(N)-s$(SEED)
 runs := $(foreach a,$(ANGLE),$(foreach v,$(SPEED),$(bodies)/a$a-v$v))
-pictures := cut.png damage.png end-1.png $(if $(shell command -v gnuplot),conserved.png)
+pictures := cut.png damage.png end-1.png $(if $(shell command -v gnuplot),conserved.png spectrum.png)
 analysis := dumps.tsv frames.txt before.tsv after.tsv fragments.h5 fragments.tsv clumps.tsv report.txt checked $(pictures) end-2.png
 
 all: $(foreach r,$(runs),$(addprefix $r/,$(pictures) checked))
@@ -112,7 +112,11 @@ $(runs:%=%/fragments.tsv): %/fragments.tsv: %/dumps.tsv
 	cd $*; for k in $$(awk '$$1 == 1 || $$1 == 2 { print $$1 }' fragments.tsv); do \
 	  render -t '$(title)' -C fragment:$$k -e 1400km -s 640x480 -o end-$$k.png fragments.h5; done
 %/conserved.png: %/dumps.tsv
-	gnuplot -c $(here)conserved.gp $*/run/conserved.tsv $@
+	conserved -o $@ -t '$(title)' $*/run > $*/drifts.tsv
+
+# The cumulative mass spectrum at the end, without the largest fragment (001 fig. 8).
+%/spectrum.png: %/fragments.tsv
+	histo --skip 1 -o $@ -t '$(title)' $< > $*/spectrum.tsv
 
 # What came out, beside the paper's numbers, and what must hold. `checked` is there when it holds.
 report = geometry.tsv before.tsv after.tsv fragments.tsv clumps.tsv run/conserved.tsv

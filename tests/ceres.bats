@@ -13,7 +13,7 @@ setup() {
 # A program that notes its call, and writes its arguments to the file after -o, or to stdout.
 mock() {
   mkdir -p "$mock"
-  for name in mksphere relax weibull collide solver fof clumps render gnuplot; do
+  for name in mksphere relax weibull collide solver fof clumps render conserved histo; do
     { echo '#!/bin/bash'
       echo 'name=${0##*/}; echo "$name $*" >>"$CALLS"'
       echo '[ "$name" = "$FAILING" ] && { echo "$name: no" >&2; exit ${CODE:-1}; }'
@@ -37,7 +37,6 @@ fof*|clumps*)
   printf '# id\tn\tmass [kg]\tnear\tv_rel [m/s]\tv_rel/v_esc [1]\tradius [m]\tE_kin [J]\tfrom_0 [kg]\tfrom_1 [kg]\tice_from_0 [kg]\n'
   printf '1\t9\t1\t2\t3\t3\t1\t0\t0\t1\t0.1\n2\t9\t1\t1\t3\t3\t1\t0\t1\t0\t0.5\n'
   [ "$to" = /dev/stdout ] || echo >"$to" ;;
-gnuplot*) echo >"${all##* }" ;;
 *) echo "$name $all" >"$to" ;;
 esac
 MOCK
@@ -49,8 +48,8 @@ study() { make -s -f pipelines/ceres.mk BIN="$mock" N=100 OUT="$OUT" "$@"; }
 # The programs called since the last look, each once, in the order of the alphabet.
 called() { [ ! -f "$CALLS" ] || cut -d' ' -f1 "$CALLS" | sort -u | tr '\n' ' '; rm -f "$CALLS"; }
 expect() { [ "$1" = "$2" ] || { echo "expected '$1', got '$2'"; return 1; }; }
-everything='clumps collide fof gnuplot mksphere relax render solver weibull '
-analysis='clumps fof gnuplot render '
+everything='clumps collide conserved fof histo mksphere relax render solver weibull '
+analysis='clumps conserved fof histo render '
 
 @test "a study is made once, and nothing of it twice" {
   mock
@@ -64,7 +63,7 @@ analysis='clumps fof gnuplot render '
 @test "a changed variable remakes what depends on it" {
   mock
   study && called
-  study LEAST=9 && expect 'fof render ' "$(called)"
+  study LEAST=9 && expect 'fof histo render ' "$(called)"
   study LEAST=9 EVERY=10 && expect "${analysis}solver " "$(called)"
   study LEAST=9 EVERY=10 DISTANCE=9000 && expect "${analysis/fof/collide fof}solver " "$(called)"
   study LEAST=9 EVERY=10 DISTANCE=9000 ICE=ice_lange
