@@ -43,7 +43,14 @@
   F(double,  divv,   1, "VelocityDivergence", "1/s",    "solver",   "divergence of the velocity, uncorrected sum") \
   F(double,  delta,  1, "NumberDensity",    "1/m^3",    "solver",   "kernel sum over neighbours (miscible density)") \
   F(double,  signal, 1, "SignalSpeed",      "m/s",      "solver",   "largest signal velocity to a neighbour") \
-  F(double,  dcrack, 1, "CrackRate",        "1/s",      "solver",   "rate of the cube root of damage")
+  F(double,  dcrack, 1, "CrackRate",        "1/s",      "solver",   "rate of the cube root of damage") \
+  F(double,  old_x,   3, "OldVelocity",     "m/s",      "solver",   "at the start of the last step (ab2)") \
+  F(double,  old_v,   3, "OldAcceleration", "m/s^2",    "solver",   "at the start of the last step (ab2)") \
+  F(double,  old_rho, 1, "OldDensityRate",  "kg/m^3/s", "solver",   "at the start of the last step (ab2)") \
+  F(double,  old_u,   1, "OldEnergyRate",   "W/kg",     "solver",   "at the start of the last step (ab2)") \
+  F(double,  old_s,   6, "OldStressRate",   "Pa/s",     "solver",   "at the start of the last step (ab2)") \
+  F(double,  old_crack, 1, "OldCrackRate",  "1/s",      "solver",   "at the start of the last step (ab2)") \
+  F(double,  old_h,   1, "OldSmoothingRate", "m/s",     "solver",   "at the start of the last step (ab2)")
 
 #define ALL_FIELDS(F) FIELDS(F) CHECKPOINT_FIELDS(F)
 /* clang-format on */

@@ -45,6 +45,7 @@ static long find(Sim *sim, int64_t id)
 int backend_idle(const Sim *sim, const char *member)
 {
   return (strcmp(member, "T") == 0 && !sim->heated) ||
+         (strncmp(member, "old_", 4) == 0 && !sim->memory) ||
          (strcmp(member, "alpha") == 0 && !sim->porous);
 }
 

@@ -102,7 +102,8 @@ struct Sim {
    * the next, as planned, and so far; the length of these and for how long it has kicked [s] */
   int pull_due, outer_steps, outer;
   double outer_time, outer_kick;
-  int slots; /* saved states that the integrator needs */
+  int slots, memory; /* of the integrator: saved states, rates of the step before */
+  double dt_before;  /* length of the last step [s]; 0: there is none */
   BackendTimer timer[TIMERS];
 };
 

@@ -318,13 +318,35 @@ HD void pass_save(const State *s, const Step *k, long i)
   if (s->alpha) to->alpha[i] = s->alpha[i];
 }
 
+/* remember: the rates of saved[slot] are those of the step before for the next step. recall: these
+ * into saved[slot]. */
+HD void pass_remember(const State *s, const Step *k, long i)
+{
+  const Saved *from = &s->saved[k->slot];
+#define PASSES_REMEMBER(MEMBER, WIDTH)                                                             \
+  for (int d = 0; d < (WIDTH); d++) s->old_##MEMBER[(WIDTH)*i + d] = from->MEMBER[(WIDTH)*i + d];
+  RATE_FIELDS(PASSES_REMEMBER)
+#undef PASSES_REMEMBER
+}
+
+HD void pass_recall(const State *s, const Step *k, long i)
+{
+  const Saved *to = &s->saved[k->slot];
+#define PASSES_RECALL(MEMBER, WIDTH)                                                               \
+  for (int d = 0; d < (WIDTH); d++) to->MEMBER[(WIDTH)*i + d] = s->old_##MEMBER[(WIDTH)*i + d];
+  RATE_FIELDS(PASSES_RECALL)
+#undef PASSES_RECALL
+}
+
 /* passes_sum: q + dt (w1 k1 + w2 k2 + w3 k3) of one number; q itself when dt is 0, whatever the k
- * are. */
+ * are, and no k is read whose weight is 0. */
+#define PASSES_TERM(SLOT, MEMBER, J)                                                               \
+  (k->weight[SLOT - 1] != 0 ? k->weight[SLOT - 1] * s->saved[SLOT].MEMBER[J] : 0)
 #define PASSES_SUM(MEMBER, J)                                                                      \
-  (s->saved[0].MEMBER[J] + (k->dt > 0 ? k->dt * (k->weight[0] * s->saved[1].MEMBER[J] +            \
-                                                 k->weight[1] * s->saved[2].MEMBER[J] +            \
-                                                 k->weight[2] * s->saved[3].MEMBER[J])             \
-                                      : 0))
+  (s->saved[0].MEMBER[J] + (k->dt > 0                                                              \
+                                ? k->dt * (PASSES_TERM(1, MEMBER, J) + PASSES_TERM(2, MEMBER, J) + \
+                                           PASSES_TERM(3, MEMBER, J))                              \
+                                : 0))
 
 /* combine: state = saved[0] + dt (weight . saved rates 1..3). */
 HD void pass_combine(const State *s, const Step *k, long i)
@@ -419,7 +441,7 @@ HD int pass_bad(const State *s, long i)
 #define PASSES_EOS(X) X(ADVANCE, advance) X(LOCAL, local) X(SETTLE, settle)
 #define PASSES(X) \
   X(KICK, kick) X(DRIFT, drift) X(FINISH, finish) X(STILL, still) X(SAVE, save) X(COMBINE, combine) \
-  X(DAMP, damp) PASSES_EOS(X)
+  X(DAMP, damp) X(REMEMBER, remember) X(RECALL, recall) PASSES_EOS(X)
 /* clang-format on */
 
 enum {

@@ -55,6 +55,7 @@ static int open_common(Sim *sim, const Param *par, const Parts *p, const char *d
   sim->time = p->time;
   sim->materials = p->materials;
   sim->slots = integrator_of(par->integrator)->slots;
+  sim->memory = integrator_of(par->integrator)->memory;
   sim->miscible = par->density == PARAM_MISCIBLE;
   if (!(sim->material = material_load(p, err))) return -1;
   for (int k = 0; k < p->materials; k++) {
@@ -127,6 +128,8 @@ static int restart_outer(Sim *sim, const Parts *p, Err *err)
   return 0;
 }
 
+static const char memory[] = "old_x old_v old_rho old_u old_s old_crack old_h";
+
 int sim_restart(Sim *sim, const Param *par, const Parts *p, const char *device, Err *err)
 {
   if (open_common(sim, par, p, device, err)) return sim_close(sim), -1;
@@ -139,6 +142,10 @@ int sim_restart(Sim *sim, const Param *par, const Parts *p, const char *device, 
   sim->par.h_max = part_number(p, "run", "SmoothingMax");
   sim->dt = part_number(p, "run", "NextStep");
   sim->step = (long)part_number(p, "run", "Step");
+  if (sim->memory) {
+    if (part_need(p, memory, "checkpoint", err)) return sim_close(sim), -1;
+    sim->dt_before = part_number(p, "run", "LastStep");
+  }
   if (!(sim->dt > 0) || !(sim->par.h_min > 0)) {
     sim_close(sim);
     return err_set(
@@ -230,7 +237,7 @@ int sim_advance(Sim *sim, double until, SimStep *done, Err *err)
   plan_gravity(sim, dt, left);
   if (in->step(sim, &dt, err)) return -1;
   if (dt < done->dt) done->limit = LIMITS + 1, done->id = -1;
-  done->dt = dt;
+  done->dt = sim->dt_before = dt;
   sim->time = dt >= left ? until : sim->time + dt;
   sim->step++;
   return 0;
@@ -248,6 +255,8 @@ int sim_send(Sim *sim, Parts *p, Err *err)
   if (limits_of(sim, &l, err) || part_add(p, stored, err) ||
       (sim->par.gravity_every > 1 && part_add(p, "pull", err)) ||
       (sim->porous && part_add(p, "alpha", err)) || (sim->heated && part_add(p, "T", err)) ||
+      (sim->memory &&
+       (part_add(p, memory, err) || part_set_number(p, "run", "LastStep", sim->dt_before, err))) ||
       sim->b->store(sim, p, err))
     return -1;
   p->time = sim->time;

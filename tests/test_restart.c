@@ -101,6 +101,12 @@ static const Case cases[] = {
     {"integrator=rk2-adaptive", "density=continuity", "gravity.method=tree", "step.error=1e-3"},
     {"integrator=rk2-adaptive", "density=sum", "gravity.method=direct", "step.error=1e-4"},
     {"integrator=rk2-adaptive", "density=miscible", "gravity.method=tree", "strength.on=false"},
+    {"integrator=rk3-tvd", "density=continuity", "gravity.method=tree", "damping.rate=0.1"},
+    {"integrator=predictor-corrector", "density=continuity", "gravity.method=none",
+     "smoothing.mode=neighbours"},
+    {"integrator=ab2", "density=continuity", "gravity.method=tree", "step.cfl=0.3"},
+    {"integrator=ab2", "density=sum", "gravity.method=none", "precision=double"},
+    {"integrator=euler", "density=continuity", "gravity.method=tree", "step.cfl=0.1"},
 };
 
 static Param settings(const Case *c)

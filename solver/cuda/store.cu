@@ -123,7 +123,8 @@ size_t cuda_store_bytes(Sim *sim)
 {
   const size_t n = (size_t)sim->s.n;
   size_t all = 0;
-#define STORE_SIZE(TYPE, MEMBER, WIDTH, ...) all += n * (WIDTH) * sizeof(TYPE) + 256;
+#define STORE_SIZE(TYPE, MEMBER, WIDTH, ...)                                                       \
+  if (!backend_idle(sim, #MEMBER)) all += n * (WIDTH) * sizeof(TYPE) + 256;
   ALL_FIELDS(STORE_SIZE)
 #undef STORE_SIZE
   return cuda_of(sim)->ample ? all : n * 8 + 256;
