@@ -14,7 +14,8 @@
 #include "thermal.h"
 #include "unit.h"
 
-static const double PI = 3.14159265358979323846, EXACT = 1e-12;
+static const double PI = 3.14159265358979323846, EXACT = 1e-12,
+                    COLD = 1e-9; /* of c^2: an energy above the cold one that is rounding */
 
 static double root(double f(double, void *), void *parameters, double low, double high)
 {
@@ -424,9 +425,11 @@ void structure_heat(Structure *s, const StructureBody *body)
       n->t = n->s = NAN;
       if (!(m->heat > 0)) continue;
       if (rho > 0) cold = thermal_isentrope(&m->eos, rho, cold, n->rho), rho = n->rho;
-      n->t = m->eos.form == EOS_TABLE ? thermal_temperature(m, n->rho, n->u)
-                                      : fmax(0, (n->u - cold) / m->heat);
-      if (l->power || isnan(entropy)) entropy = thermal_entropy(m, n->rho, n->u);
+      n->t =
+          m->eos.form == EOS_TABLE ? thermal_temperature(m, n->rho, n->u) : (n->u - cold) / m->heat;
+      if (m->eos.form != EOS_TABLE && n->u - cold < COLD * n->cs * n->cs) n->t = 0;
+      if (l->power || isnan(entropy))
+        entropy = n->t > 0 ? thermal_entropy(m, n->rho, n->u) : -INFINITY;
       n->s = entropy;
     }
   }

@@ -37,6 +37,7 @@ static const CfgRow top[] = {
   {"energy", CFG_CHOICE, AT(energy), "full|isentropic|frozen", "full", ANY,
    "energy equation: all work, compression only (frozen entropy), or none"},
   {"energy_floor", CFG_REAL, AT(energy_floor), "J/kg", "-1e300", ANY, "smallest specific internal energy"},
+  {"outer_pressure", CFG_REAL, AT(outer_pressure), "Pa", "0", 0, 1e30, "pressure outside, on free surfaces; E + p V is kept, not E"},
 };
 static const CfgRow strength[] = {
   {"on", CFG_BOOL, AT(strength), NULL, "true", ANY, "deviatoric stress of materials with a shear modulus"},

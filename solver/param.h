@@ -16,7 +16,7 @@ enum { PARAM_MIXED, PARAM_DOUBLE };
 
 typedef struct {
   int integrator, kernel, precision, density, energy, strength, damage;
-  double energy_floor, density_floor;
+  double energy_floor, density_floor, outer_pressure;
   int gravity, gravity_every;
   double theta, G;
   double alpha, beta;

@@ -17,6 +17,7 @@ typedef struct {
   double neighbours, h_min, h_max, density_floor, energy_floor;
   double self;                            /* sigma w(0): the kernel's centre */
   double cfl, acceleration, step_density; /* factors of the limits */
+  double outer;                           /* pressure outside [Pa] */
   double damping;                         /* 1/s; 0: none */
   int damping_radial;
   double centre[BODIES][3], velocity[BODIES][3],
@@ -107,7 +108,8 @@ HD double passes_work(const State *s, long i, double p, Sym dev, double rho, int
   return w / rho;
 }
 
-/* passes_pack: p and S C as the force loop takes them. C, the inverse moment matrix of loop A,
+/* passes_pack: p and S C as the force loop takes them: p above the pressure outside, which thereby
+ * acts on free surfaces. C, the inverse moment matrix of loop A,
  * is turned by the spin over dt, from loop A's positions to those of the force loop. As C also
  * corrects the gradient that drives S, the two are adjoint; and as sum V_j r W' C = 1, the stress
  * exerts no torque on a neighbourhood (Bonet & Lok 1999, CMAME 180, 97). */
@@ -116,7 +118,7 @@ HD void passes_pack(const State *s, const Step *k, long i, int solid, double dt)
   double left = damage_shear(&s->material[s->mat[i]].damage, s->damage[i]), *t = &s->t[9 * i];
   double size = k->density == 2 ? s->m[i] / s->rho[i] : 1 / s->rho[i]; /* 2: miscible */
   double p = s->p[i] < 0 ? (1 - s->damage[i]) * s->p[i] : s->p[i];
-  s->push[i] = p * size * size;
+  s->push[i] = (p - k->outer) * size * size;
   for (int d = 0; d < 9 && !solid && s->t; d++) t[d] = 0;
   if (solid) {
     Sym c = passes_rotate(passes_stress(&s->cm[6 * i]), &s->g[9 * i], dt);
@@ -133,6 +135,13 @@ HD PairBody passes_body(const State *s, long i)
                 (real)t[0], (real)t[1],      (real)t[2],     (real)t[3],     (real)t[4],
                 (real)t[5], (real)t[6],      (real)t[7],     (real)t[8]};
   return b;
+}
+
+/* passes_outer: the part of du/dt [W/kg] that the force loop lacks: work against the pressure
+ * outside, at a density. */
+HD double passes_outer(const State *s, const Step *k, long i, double rho)
+{
+  return k->outer > 0 ? -k->outer * s->divv[i] / rho : 0;
 }
 
 /* passes_kick: the acceleration of a kick, component j: gravity counts 1 + k->pull times. */
@@ -259,11 +268,12 @@ HD void pass_finish(const State *s, const Step *k, long i)
     s->v[3 * i + d] += passes_kick(s, k, 3 * i + d) * half;
   }
   if (k->energy == 0) s->u[i] += half * (s->dudt[i] + s->du[i]);
+  if (k->energy == 0 && k->outer > 0) s->u[i] += k->dt * passes_outer(s, k, i, s->rhoa[i]);
   if (k->energy == 1) s->u[i] = s->ue[i];
   if (s->u[i] < k->energy_floor) s->u[i] = k->energy_floor;
   s->dudt[i] = s->du[i];
-  s->dqdt[i] =
-      s->du[i] - passes_work(s, i, s->p[i], passes_own_stress(s, i, mu > 0), s->rho[i], mu > 0);
+  s->dqdt[i] = s->du[i] + passes_outer(s, k, i, s->rho[i]) -
+               passes_work(s, i, s->p[i], passes_own_stress(s, i, mu > 0), s->rho[i], mu > 0);
   if (s->p[i] > s->pmax[i]) s->pmax[i] = s->p[i];
   if (k->smoothing && k->dt > 0)
     s->h[i] = passes_follow(s, k, i, s->ha[i] * s->ha[i] / s->h[i], k->dt);
@@ -297,7 +307,7 @@ HD void pass_local(const State *s, const Step *k, long i)
  * entropy), or none. */
 HD double passes_heating(const State *s, const Step *k, long i)
 {
-  if (k->energy == 0) return s->du[i];
+  if (k->energy == 0) return s->du[i] + passes_outer(s, k, i, s->rho[i]);
   return k->energy == 1 ? -s->p[i] * s->divv[i] / s->rho[i] : 0;
 }
 

@@ -26,6 +26,7 @@ Step sim_step(const Sim *sim, double dt)
   k.strength = sim->solid, k.damage = sim->solid && p->damage;
   k.neighbours = p->neighbours, k.h_min = p->h_min, k.h_max = p->h_max;
   k.density_floor = p->density_floor, k.energy_floor = p->energy_floor;
+  k.outer = p->outer_pressure;
   k.self = kernel_sigma(p->kernel, sim->s.dimension) * kernel_w(p->kernel, sim->s.dimension, 0);
   k.cfl = p->cfl, k.acceleration = p->step_acceleration;
   k.step_density = p->step_density;

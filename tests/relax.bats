@@ -16,6 +16,9 @@ eos = { form = "murnaghan"; rho0 = "7800 kg/m^3"; K = "128 GPa"; n = 4.0; source
 CFG
 }
 
+# cell RUN COLUMN: of the report r.tsv
+cell() { awk -F'\t' -v run="$1" -v name="$2" 'NR == 1 { for (k = 1; k <= NF; k++) if ($k ~ "^" name "\\[") c = k } $1 == run { print $c }' r.tsv; }
+
 @test "profile of a 1e23 kg ball of rock: R to 1e-4, central pressure to 1e-3" {
   mksphere -n 300 --mass 1e23 --layer rock.cfg:1 | relax --profile-only >p.tsv
   true_that 'near(r, 2.044872e6, 1e-4) && near(p, 4.7046e9, 1e-3)' \
@@ -45,6 +48,29 @@ CFG
   paste <(field r.h5 MaterialID) <(field r.h5 Masses) | awk '{ m[$1] += $2 }
     END { exit !(m[0] / 6.601e20 - 1 < 1e-12 && 1 - m[0] / 6.601e20 < 1e-12) }'
   [ "$(h5dump -d /History r.h5 | grep -c relax)" -ge 1 ]
+}
+
+@test "what was reached, as a table: with both runs, in the units of the judgement" {
+  mksphere -n 300 --mass 1e23 --layer rock.cfg:1 | relax --proof 2tff --report r.tsv -o r.h5 2>said
+  [ "$(cut -f1 r.tsv | tr '\n' ' ')" = "# run damped proof " ]
+  true_that 'near(f, 2, 1e-3) && v < 0.003 && near(r, 2.044872e6, 1e-4) && near(e, r, 1e-12)' f="$(cell proof falls)" v="$(cell proof v_rms)" \
+    r="$(cell damped radius)" e="$(cell damped equator)"
+  true_that 'near(a, b, 1e-2)' a="$(cell damped rho_off)" b="$(sed -n 's/.*damped.*off the profile by \([^ ]*\) rms.*/\1/p' said)"
+  true_that 'near(a, b, 1e-5)' a="$(cell damped reach)" b="$(number r.h5 /Body/RadiusMax0)"
+  # times may be seconds
+  relax --again --max-time 100s --proof 50s --report r.tsv -o x.h5 r.h5 2>said
+  true_that 't > 99 && t < 101 && near(q, 50, 1e-3)' t="$(cell damped time)" q="$(cell proof time)"
+}
+
+@test "a pressure outside is felt: the body has the volume of its structure, and has another when it is gone" {
+  mksphere -n 600 --mass 1e23 --layer rock.cfg --hydrostatic --outer-pressure 5GPa -o b.h5 2>said
+  relax --proof 2tff --report r.tsv -o r.h5 b.h5 2>said
+  true_that 'near(a, b, 0.01) && v < 0.003' a="$(cell proof r_volume)" b="$(cell proof radius)" v="$(cell proof v_rms)"
+  true_that 'near(p, 5e9, 1e-12)' p="$(number r.h5 /Body/OuterPressure0)"
+  # with nothing outside it swells to the 2044.872 km of above from 1992.658
+  solver -o run --end 1000s --every 1000s --set damping.rate=0.01 r.h5 2>said
+  paste <(field run/snap_0001.h5 Masses) <(field run/snap_0001.h5 Density) <(field r.h5 Density) |
+    awk '{ a += $1/$2; b += $1/$3 } END { q = a/b/(2044.872/1992.658)^3; exit !(q > 0.99 && q < 1.01) }'
 }
 
 @test "a fluid planet: pressure and density follow the profile" {
@@ -137,6 +163,12 @@ CFG
   bad 2 "unknown" relax --set gravity.tehta=1 b.h5
   bad 2 "max-time" relax --max-time 3kg b.h5
   bad 2 "proof" relax --proof -1s b.h5
+  bad 2 "'2txf': unknown unit 'txf' (or free-fall times, as in 2tff)" relax --proof 2txf b.h5
+  bad 2 "max-time must be positive" relax --max-time -2tff b.h5
+  bad 2 "--rigid has no effect with --profile-only" relax --profile-only --rigid b.h5
+  bad 2 "it is the body's own" relax --set outer_pressure=1 b.h5
+  run relax --proof 0 --max-time 1s --report nowhere/r.tsv -o rr.h5 b.h5
+  [ "$status" = 1 ] && [ "${lines[2]}" = "relax: cannot write 'nowhere/r.tsv': No such file or directory" ] && [ ! -e rr.h5 ]
   bad 2 "'cold'" relax --freeze cold b.h5
   mksphere -n 100 --mass 1e23 --layer basalt --hydrostatic -o b.h5
   without Nothing b.h5 c.h5 # neither a recipe nor layers that can be seen

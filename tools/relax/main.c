@@ -9,10 +9,14 @@
 #include <string.h>
 #include <unistd.h>
 #include "../../lib/snap.h"
+#include "../../lib/spool.h"
+#include "../../lib/unit.h"
 #include "finish.h"
+#include "report.h"
 #include "run.h"
 
-static Options o = {.damping = NAN, .max_time = NAN, .proof = NAN};
+static Options o;
+static Report report;
 
 /* clang-format off */
 static const Opt opts[] = {
@@ -20,14 +24,15 @@ static const Opt opts[] = {
   {"profile-only", 0,   OPT_FLAG,   NULL,   NULL,   "print the one-dimensional structure (TSV) and stop", &o.only},
   {"profile",      'p', OPT_TEXT,   NULL,   "FILE", "write the one-dimensional structure there: TSV, or HDF5 (.h5)", &o.profile},
   {"method",       0,   OPT_CHOICE, "ode",  "ode|shells", "how it is found: integrated outwards, or by falling shells", &o.method},
-  {"nodes",        0,   OPT_INT,    NULL,   "N",    "of the structure (default: 4000, 400 shells)", &o.nodes},
-  {"damping",      0,   OPT_REAL,   NULL,   "s",    "friction time of the second stage (default: 0.3 free-fall times)", &o.damping},
+  {"nodes",        0,   OPT_INT,    NULL,   "N",    "of the structure (4000; 400 shells)", &o.nodes},
+  {"damping",      0,   OPT_TEXT,   "0.3tff", "TIME", "friction time of the second stage; tff: free-fall times", &o.damping_text},
   {"radial",       0,   OPT_FLAG,   NULL,   NULL,   "damp the radial velocity only", &o.radial},
   {"freeze",       0,   OPT_CHOICE, "entropy", "entropy|energy|nothing", "of each particle, in the damped run", &o.freeze},
   {"fluid",        0,   OPT_FLAG,   NULL,   NULL,   "without strength: it ends free of deviatoric stress", &o.fluid},
   {"rigid",        0,   OPT_FLAG,   NULL,   NULL,   "end with no motion but the rigid spin", &o.rigid},
-  {"max-time",     't', OPT_REAL,   NULL,   "s",    "longest damped run (default: 12 free-fall times)", &o.max_time},
-  {"proof",        0,   OPT_REAL,   NULL,   "s",    "length of the proof run (default: 1 free-fall time; 0: none)", &o.proof},
+  {"max-time",     't', OPT_TEXT,   "12tff", "TIME", "longest damped run", &o.max_time_text},
+  {"proof",        0,   OPT_TEXT,   "1tff", "TIME", "length of the proof run without friction; 0: none", &o.proof_text},
+  {"report",       'r', OPT_TEXT,   NULL,   "FILE", "write what was reached there, one row a run (TSV)", &o.report},
   {"again",        0,   OPT_FLAG,   NULL,   NULL,   "relax a body that is at rest already, too", &o.again},
   {"checkpoint",   0,   OPT_TEXT,   NULL,   "FILE", "save the damped run there each minute, and go on from it", &o.checkpoint},
   {"device",       0,   OPT_TEXT, "auto", "auto|cpu|cuda[:K]", "where to run; auto: a card if there is one", &o.device},
@@ -45,16 +50,6 @@ static const OptProgram program = {
     opts,
     0,
     1};
-
-static void report(const char *what, const Body *b, const Measure *m, double time)
-{
-  fprintf(stderr,
-          "relax: %s: %.3g s (%.2f free-fall times): rms v %.2e, 99.9 %% %.2e, max %.2e v_esc; "
-          "K/|W| %.1e; density off the "
-          "profile by %.2e rms; central pressure %.3f of it\n",
-          what, time, time / b->free_fall, m->rms, m->high, m->max, m->balance, m->density,
-          m->pressure);
-}
 
 static int measure(const Body *b, Measure *m, Err *err)
 {
@@ -78,7 +73,7 @@ static int proof(Body *b, double time, Err *err)
   rc = run_free(&copy, &o, time, err);
   if (!rc) rc = measure(&copy, &m, err);
   if (!rc) {
-    report("proof run without friction", &copy, &m, time);
+    report_run(&report, "proof", "proof run without friction", &copy, &m, time);
     fprintf(stderr, "relax: its radius changed by %.2e\n", m.radius / before - 1);
     if (!(m.rms < 0.01)) err_warn("the body does not stay at rest: rms v is %.2g v_esc", m.rms);
   }
@@ -95,35 +90,62 @@ static int at_rest(Body *b, int *rest, Err *err)
   if (b->laid || o.again || (o.checkpoint && !access(o.checkpoint, F_OK))) return 0;
   if (measure(b, &m, err) || run_residual(b, &o, &left, err)) return -1;
   *rest = measure_quiet(&m) && left < 0.01;
-  if (*rest) report("at rest already", b, &m, 0);
+  if (*rest) report_run(&report, "rest", "at rest already", b, &m, 0);
   return 0;
 }
 
 static int relax(Body *b, Err *err)
 {
-  double took = 0, left = isnan(o.proof) ? b->free_fall : o.proof;
+  double took = 0, left = run_time(b, o.proof);
   Measure m;
   int rest, rc;
   if (at_rest(b, &rest, err)) return -1;
   if (!rest && (rc = run_damped(b, &o, &took, err))) return rc;
   if (finish_eject(b, err) || finish_settle(b, o.rigid, err) || measure(b, &m, err)) return -1;
-  if (!rest) report("damped run", b, &m, took);
+  if (!rest) report_run(&report, "damped", "damped run", b, &m, took);
   if (!measure_quiet(&m))
-    err_warn("not at rest after %.3g s: 99.9 %% of the speeds below %.2g v_esc", run_longest(b, &o),
-             m.high);
+    err_warn("not at rest after %.3g s: 99.9 %% of the speeds below %.2g v_esc",
+             run_time(b, o.max_time), m.high);
   if (finish_reset(b, o.fluid, &m, err)) return -1;
-  return left > 0 && (!rest || !isnan(o.proof)) ? proof(b, left, err) : 0;
+  return left > 0 && (!rest || opt_given(&program, "proof")) ? proof(b, left, err) : 0;
+}
+
+static Span span(const char *name, const char *text)
+{
+  Span t = {0, 0};
+  const char *suffix;
+  double number;
+  Err err;
+  if (!unit_suffix(text, &number, &suffix, &err) && !strcmp(suffix, "tff"))
+    t.falls = number;
+  else if (unit_parse(text, "s", &t.s, &err))
+    err_usage("--%s: %s (or free-fall times, as in 2tff)", name, err.text);
+  return t;
+}
+
+/* What has no effect without a run is refused. */
+static void check_only(void)
+{
+  static const char *const runs[] = {"output", "damping", "radial",     "freeze",
+                                     "fluid",  "rigid",   "max-time",   "proof",
+                                     "report", "again",   "checkpoint", "set"};
+  for (size_t k = 0; o.only && k < sizeof runs / sizeof *runs; k++)
+    if (opt_given(&program, runs[k]))
+      err_usage("--%s has no effect with --profile-only: nothing runs", runs[k]);
 }
 
 static void check_options(void)
 {
+  check_only();
+  o.damping = span("damping", o.damping_text), o.max_time = span("max-time", o.max_time_text);
+  o.proof = span("proof", o.proof_text);
   if (!opt_given(&program, "nodes")) o.nodes = !strcmp(o.method, "ode") ? 4000 : 400;
   if (o.nodes < 100) err_usage("--nodes must be at least 100");
-  if (!isnan(o.damping) && !(o.damping > 0)) err_usage("--damping must be positive");
-  if (!isnan(o.max_time) && !(o.max_time > 0)) err_usage("--max-time must be positive");
-  if (!isnan(o.proof) && !(o.proof >= 0)) err_usage("--proof must not be negative");
+  if (!(o.damping.s + o.damping.falls > 0)) err_usage("--damping must be positive");
+  if (!(o.max_time.s + o.max_time.falls > 0)) err_usage("--max-time must be positive");
+  if (o.proof.s + o.proof.falls < 0) err_usage("--proof must not be negative");
   if (o.checkpoint && !strcmp(o.checkpoint, "-")) err_usage("--checkpoint needs a file");
-  run_settings(&o, 1);
+  run_settings(&o, 1, 0);
 }
 
 int main(int argc, char **argv)
@@ -140,6 +162,7 @@ int main(int argc, char **argv)
       fprintf(stderr, "relax: stopped; the same command goes on from '%s'\n", o.checkpoint);
       return ERR_STOPPED;
     }
+    if (o.report && spool_text(o.report, report.text, &err)) err_die("%s", err.text);
     if (part_history(b.p, command, &err) || snap_write(b.p, o.output, 0, &err))
       err_die("%s", err.text);
     if (o.checkpoint) unlink(o.checkpoint);

@@ -44,6 +44,13 @@ static double place(const Parts *p, const Structure *s, const Group *g, long i, 
   return sqrt(r2);
 }
 
+/* Whether a ball of radius h about a point of the level r lies in the layer. */
+static int inside(const Structure *s, int layer, double r, double h)
+{
+  double low = s->node[s->first[layer]].r, high = s->node[s->first[layer + 1] - 1].r;
+  return (layer == 0 || r - h > low) && r + h < high;
+}
+
 /* The profile at r, or where the layer begins or ends when r lies outside of it. */
 static StructureNode within(const Structure *s, int layer, double r)
 {
@@ -54,19 +61,25 @@ static StructureNode within(const Structure *s, int layer, double r)
 static void sums(const Parts *p, const Structure *s, const int *layer, const Group *g,
                  double *speed, Measure *o)
 {
-  double kinetic = 0, off = 0, centre = 0, want = 0, v[3];
+  double kinetic = 0, off = 0, centre = 0, want = 0, off_inside = 0, v[3];
+  long n_inside = 0;
   for (long i = 0; i < p->n; i++) {
     double level, r = place(p, s, g, i, v, &level), v2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
     StructureNode at = within(s, layer[i], level);
     speed[i] = sqrt(v2);
     kinetic += 0.5 * p->m[i] * v2;
     off += pow(p->rho[i] / at.rho - 1, 2);
+    if (inside(s, layer[i], level, p->h[i])) {
+      off_inside += pow(p->rho[i] / at.rho - 1, 2);
+      n_inside++;
+    }
     if (r > o->radius) o->radius = r;
     if (at.m < 0.01 * g->mass) centre += p->m[i] * p->p[i], want += p->m[i] * at.p;
   }
   o->balance = g->e_pot < 0 ? kinetic / -g->e_pot : NAN;
   o->rms = sqrt(2 * kinetic / g->mass) / o->vesc;
   o->density = sqrt(off / (double)p->n);
+  o->inside = n_inside ? sqrt(off_inside / (double)n_inside) : NAN;
   o->pressure = want > 0 ? centre / want : NAN;
 }
 

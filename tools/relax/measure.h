@@ -11,6 +11,7 @@ typedef struct {
       max;         /* speed in the body's own (co-rotating) frame over vesc: rms, 99.9 %, max */
   double balance;  /* K/|W|: kinetic over gravitational energy in that frame */
   double density;  /* rms of rho/rho_profile(r) - 1, within the particle's own layer */
+  double inside;   /* the same of those farther than h from the ends of their layer; NAN: none */
   double pressure; /* mean pressure of the innermost 1 % of mass over the profile's there */
   double radius, volume; /* largest |r| + half a spacing; radius of the volume sum m/rho [m] */
 } Measure;

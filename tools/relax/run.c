@@ -28,13 +28,16 @@ static void set_signals(void handler(int))
   sigaction(SIGTERM, &act, NULL), sigaction(SIGINT, &act, NULL);
 }
 
-Param run_settings(const Options *o, double tau)
+Param run_settings(const Options *o, double tau, double outer)
 {
   Param par;
   Err err;
   param_defaults(&par);
   for (int i = 0; i < o->set.n; i++)
     if (param_set(&par, o->set.text[i], &err)) err_usage("--set: %s", err.text);
+  if (par.outer_pressure > 0)
+    err_usage("--set outer_pressure: it is the body's own (mksphere --outer-pressure)");
+  par.outer_pressure = outer;
   if (o->fluid) par.strength = 0;
   if (!(tau > 0)) return par;
   par.energy = !strcmp(o->freeze, "entropy")  ? PARAM_ISENTROPIC
@@ -43,6 +46,8 @@ Param run_settings(const Options *o, double tau)
   par.damage = 0, par.damping = 1 / tau, par.damping_radial = o->radial;
   return par;
 }
+
+double run_time(const Body *b, Span time) { return time.s + time.falls * b->free_fall; }
 
 /* Where a run is: which stage, since when, when the body became quiet (NAN: it is not), the best
  * density so far. */
@@ -60,8 +65,8 @@ static double print_of(const Body *b, const Options *o)
   char text[256];
   for (int k = 0; k < 3; k++)
     for (size_t i = 0; i < size[k] * (size_t)b->p->n; i++) h = (h ^ bytes[k][i]) * 1099511628211u;
-  snprintf(text, sizeof text, "%g %g %d %d %s", o->damping, o->max_time, o->radial, o->fluid,
-           o->freeze);
+  snprintf(text, sizeof text, "%g %g %g %d %d %s", b->recipe.outer, run_time(b, o->damping),
+           run_time(b, o->max_time), o->radial, o->fluid, o->freeze);
   for (char *c = text; *c; c++) h = (h ^ (unsigned char)*c) * 1099511628211u;
   for (int k = 0; k < o->set.n; k++)
     for (const char *c = o->set.text[k]; *c; c++) h = (h ^ (unsigned char)*c) * 1099511628211u;
@@ -150,14 +155,9 @@ static int advance(Body *b, const Options *o, const Plan *plan, Stage *s, Err *e
   return rc;
 }
 
-double run_longest(const Body *b, const Options *o)
-{
-  return isnan(o->max_time) ? 12 * b->free_fall : o->max_time;
-}
-
 int run_damped(Body *b, const Options *o, double *took, Err *err)
 {
-  double slow = isnan(o->damping) ? 0.3 * b->free_fall : o->damping, longest = run_longest(b, o);
+  double slow = run_time(b, o->damping), longest = run_time(b, o->max_time);
   double tau[2] = {fmin(slow, b->sound / (2 * acos(-1))), slow};
   double time[2] = {fmin(longest, 10 * b->sound), longest - fmin(longest, 10 * b->sound)};
   Stage s = {0, b->p->time, NAN, INFINITY, b->p->time};
@@ -169,7 +169,8 @@ int run_damped(Body *b, const Options *o, double *took, Err *err)
   progress_start(&bar, "relax", 30);
   for (int k = s.number; !rc && k < 2; k++) {
     if (!(k == s.number && restored > 0)) s = (Stage){k, b->p->time, NAN, INFINITY, s.begin};
-    plan.par = run_settings(o, tau[k]), plan.end = s.start + time[k], plan.stop = k == 1;
+    plan.par = run_settings(o, tau[k], b->recipe.outer), plan.end = s.start + time[k],
+    plan.stop = k == 1;
     plan.restart = k == s.number && restored > 0, restored = 0;
     plan.first = k ? 0.15 : 0, plan.last = k ? 1 : 0.15;
     if (time[k] > 0) rc = advance(b, o, &plan, &s, err);
@@ -184,7 +185,8 @@ int run_free(Body *b, const Options *o, double time, Err *err)
 {
   Stage s = {2, b->p->time, NAN, INFINITY, b->p->time};
   Progress bar;
-  Plan plan = {.par = run_settings(o, 0), .end = s.start + time, .bar = &bar, .last = 1};
+  Plan plan = {
+      .par = run_settings(o, 0, b->recipe.outer), .end = s.start + time, .bar = &bar, .last = 1};
   int rc;
   progress_start(&bar, "relax: proof", 30);
   rc = advance(b, o, &plan, &s, err);
@@ -205,7 +207,7 @@ static void centripetal(const Group *g, const double x[3], double a[3])
 
 int run_residual(const Body *b, const Options *o, double *residual, Err *err)
 {
-  Param par = run_settings(o, 0);
+  Param par = run_settings(o, 0, b->recipe.outer);
   Sim sim;
   Group g;
   unsigned char *all = malloc((size_t)b->p->n);

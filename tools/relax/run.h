@@ -8,8 +8,11 @@
 #include "measure.h"
 
 /* run_settings: those of the solver; tau [s] of the friction, 0: none, with full strength and
- * energy. Exits on a bad --set. */
-Param run_settings(const Options *o, double tau);
+ * energy; outer: pressure outside [Pa]. Exits on a bad --set. */
+Param run_settings(const Options *o, double tau, double outer);
+
+/* run_time: s of a time that may be given in the body's free-fall times. */
+double run_time(const Body *b, Span time);
 
 /* run_damped: until the body has been quiet for a free-fall time and its density no longer
  * improves. *took: how long it ran [s]. Returns 0, -1, or ERR_STOPPED when a signal has ended it
@@ -22,8 +25,5 @@ int run_free(Body *b, const Options *o, double time, Err *err);
 /* run_residual: rms of the acceleration that is left of gravity and pressure, in the frame that
  * turns with the body, over gravity at the surface. The body is not changed. */
 int run_residual(const Body *b, const Options *o, double *residual, Err *err);
-
-/* run_longest: the longest damped run [s]. */
-double run_longest(const Body *b, const Options *o);
 
 #endif
