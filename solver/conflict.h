@@ -25,7 +25,17 @@
   U("smoothing.min", p->smoothing == PARAM_FIXED, "smoothing.mode") \
   U("smoothing.max", p->smoothing == PARAM_FIXED, "smoothing.mode") \
   U("step.error", integrator_of(p->integrator) != &integrator_rk2_adaptive, "integrator") \
-  U("damping.radial", !(p->damping > 0), "damping.rate")
+  U("damping.radial", !(p->damping > 0), "damping.rate") \
+  U("analysis.method", !(p->analysis_every > 0), "analysis.every") \
+  U("analysis.criterion", !(p->analysis_every > 0), "analysis.every") \
+  U("analysis.min_particles", !(p->analysis_every > 0), "analysis.every") \
+  U("analysis.link", !(p->analysis_every > 0), "analysis.every") \
+  U("analysis.link", p->analysis_method != 0, "analysis.method") \
+  U("analysis.theta", !(p->analysis_every > 0), "analysis.every") \
+  U("analysis.max_virial", !(p->analysis_every > 0), "analysis.every") \
+  U("analysis.converged", !(p->analysis_every > 0), "analysis.every") \
+  U("analysis.window", !(p->analysis_converged > 0), "analysis.converged") \
+  U("analysis.after", !(p->analysis_converged > 0), "analysis.converged")
 /* clang-format on */
 
 /* conflict_check: the first row of CONFLICTS that holds, as `a = 1 cannot go with b = 2: why`; 0 if

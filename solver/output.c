@@ -43,30 +43,15 @@ int output_claim(Output *o, const char *dir, Err *err)
   return 0;
 }
 
-/* Opens conserved.tsv to go on at its end. */
-static int open_conserved(Output *o, const char *path, Err *err)
-{
-  if ((o->conserved = fopen(path, "a"))) return 0;
-  return err_set(err, "cannot write '%s': %s", path, strerror(errno));
-}
-
-int output_open(Output *o, double start, double every, double end, Err *err)
-{
-  char path[4096];
-  o->start = start, o->every = every, o->end = end;
-  name_of(o->dir, "conserved.tsv", path, sizeof path);
-  return spool_text(path, HEADER, err) ? -1 : open_conserved(o, path, err);
-}
-
 /* Keeps the header and the lines up to `step`. */
-static int truncate_conserved(const char *path, long step, Err *err)
+static int truncate_table(const char *path, const char *header, long step, Err *err)
 {
   FILE *f = fopen(path, "r");
   char *text, *line = NULL;
   size_t room = 0, used = 0, all = 1 << 16;
   ssize_t n;
   int rc;
-  if (!f) return spool_text(path, HEADER, err);
+  if (!f) return spool_text(path, header, err);
   text = malloc(all);
   while (text && (n = getline(&line, &room, f)) > 0) {
     if (line[n - 1] != '\n' || (line[0] != '#' && atol(line) > step)) break;
@@ -77,19 +62,33 @@ static int truncate_conserved(const char *path, long step, Err *err)
   fclose(f);
   free(line);
   if (!text) return err_set(err, "not enough memory");
-  rc = spool_text(path, used ? text : HEADER, err);
+  rc = spool_text(path, used ? text : header, err);
   free(text);
   return rc;
 }
 
-int output_resume(Output *o, double start, double every, double end, const Sim *sim, Err *err)
+int output_table(const Output *o, const char *name, const char *header, long step, FILE **table,
+                 Err *err)
 {
   char path[4096];
+  name_of(o->dir, name, path, sizeof path);
+  if (step < 0 ? spool_text(path, header, err) : truncate_table(path, header, step, err)) return -1;
+  if ((*table = fopen(path, "a+"))) return 0;
+  return err_set(err, "cannot write '%s': %s", path, strerror(errno));
+}
+
+int output_open(Output *o, double start, double every, double end, Err *err)
+{
+  o->start = start, o->every = every, o->end = end;
+  return output_table(o, "conserved.tsv", HEADER, -1, &o->conserved, err);
+}
+
+int output_resume(Output *o, double start, double every, double end, const Sim *sim, Err *err)
+{
   o->start = start, o->every = every, o->end = end;
   while (output_due(o) <= sim->time && output_due(o) < end) o->next++;
   if (sim->time >= end) o->next++;
-  name_of(o->dir, "conserved.tsv", path, sizeof path);
-  return truncate_conserved(path, sim->step, err) ? -1 : open_conserved(o, path, err);
+  return output_table(o, "conserved.tsv", HEADER, sim->step, &o->conserved, err);
 }
 
 void output_close(Output *o)

@@ -32,6 +32,12 @@ int output_open(Output *o, double start, double every, double end, Err *err);
 int output_resume(Output *o, double start, double every, double end, const Sim *sim, Err *err);
 void output_close(Output *o);
 
+/* output_table: opens a table of the run directory to read and to append to: a new one with this
+ * header line (step < 0), or what is there of a run that is continued, its lines behind `step` (the
+ * first column) dropped. */
+int output_table(const Output *o, const char *name, const char *header, long step, FILE **table,
+                 Err *err);
+
 /* output_due: the time of the next snapshot [s]. */
 double output_due(const Output *o);
 

@@ -79,6 +79,21 @@ static const CfgRow output[] = {
   {"log_every", CFG_INT, AT(log_every), NULL, "10", 1, 1e9, "steps between lines of conserved.tsv"},
   {"checkpoint_every", CFG_REAL, AT(checkpoint_every), "s", "600", 0, 1e300, "wall-clock time between checkpoints; 0: after every step"},
 };
+static const CfgRow analysis[] = {
+  {"every", CFG_REAL, AT(analysis_every), "s", "0", 0, 1e300,
+   "simulated time between lines of bound.tsv, the bound bodies that clumps finds; 0: none"},
+  {"method", CFG_CHOICE, AT(analysis_method), "potential|grow", "potential", ANY, "as clumps --method"},
+  {"criterion", CFG_CHOICE, AT(analysis_criterion), "kinetic|thermal|enthalpy", "kinetic", ANY, "as clumps --criterion"},
+  {"min_particles", CFG_INT, AT(analysis_least), NULL, "20", 2, 1e9, "smallest body"},
+  {"link", CFG_REAL, AT(analysis_link), "1", "1", 1e-6, 100, "potential: friends when r_ij < link (h_i + h_j)/2"},
+  {"theta", CFG_REAL, AT(analysis_theta), "1", "0.7", 0, 1, "opening angle of the analysis' own gravity tree"},
+  {"max_virial", CFG_REAL, AT(analysis_virial), "1", "0", 0, 1e300,
+   "search nothing while -2 E_kin/E_pot of the system is above this (say 3); 0: always search"},
+  {"converged", CFG_REAL, AT(analysis_converged), "1", "0", 0, 1,
+   "end the run when M_1, M_2 and M_bound have stayed within this part of the total mass for `window` lines; 0: do not"},
+  {"window", CFG_INT, AT(analysis_window), NULL, "10", 2, 1000, "lines of bound.tsv that must agree"},
+  {"after", CFG_REAL, AT(analysis_after), "s", "0", -1e300, 1e300, "time from which lines count for `converged`; 0 is the contact"},
+};
 /* clang-format on */
 
 #define GROUP(NAME, ROWS)                                                                          \
@@ -92,7 +107,8 @@ static const Group groups[] = {GROUP("", top),
                                GROUP("smoothing", smoothing),
                                GROUP("step", step),
                                GROUP("damping", damping),
-                               GROUP("output", output)};
+                               GROUP("output", output),
+                               GROUP("analysis", analysis)};
 enum { GROUPS = sizeof groups / sizeof *groups };
 
 void param_defaults(Param *p)

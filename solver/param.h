@@ -27,6 +27,9 @@ typedef struct {
   int damping_radial;
   int log_every;
   double checkpoint_every;
+  double analysis_every, analysis_link, analysis_theta, analysis_virial, analysis_converged,
+      analysis_after;
+  int analysis_method, analysis_criterion, analysis_least, analysis_window;
 } Param;
 
 /* param_defaults: all settings at their defaults. */

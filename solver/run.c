@@ -6,6 +6,7 @@
 #include "../lib/progress.h"
 #include "../lib/snap.h"
 #include "../lib/unit.h"
+#include "analysis.h"
 #include "conflict.h"
 #include "output.h"
 #include "profile.h"
@@ -29,6 +30,7 @@ static void catch_signals(void)
 typedef struct {
   Sim sim;
   Output out;
+  Analysis analysis;
   Parts *parts;
   const RunOptions *o;
   double began, saved; /* wall clock: start, last checkpoint */
@@ -43,6 +45,14 @@ static int vacant(const RunOptions *o, Err *err)
   return err_set(err, "'%s' holds a run already: --restart continues it", o->dir);
 }
 
+/* A line of bound.tsv when one is due. */
+static int analyse(Run *r, Err *err)
+{
+  if (!analysis_due(&r->analysis, &r->sim)) return 0;
+  if (output_wait(&r->out, err) || sim_store(&r->sim, r->parts, err)) return -1;
+  return analysis_line(&r->analysis, &r->sim, r->parts, err);
+}
+
 static int fresh(Run *r, const Param *par, Err *err)
 {
   if (part_history(r->parts, r->o->command, err) || param_record(par, r->parts, err)) return -1;
@@ -51,11 +61,13 @@ static int fresh(Run *r, const Param *par, Err *err)
   if (conflict_unused(par, &r->sim, err)) return -1;
   r->sim.profile = r->o->profile;
   if (output_claim(&r->out, r->o->dir, err) || vacant(r->o, err)) return -1;
-  if (output_open(&r->out, r->parts->time, r->o->every, r->o->end, err)) return -1;
+  if (output_open(&r->out, r->parts->time, r->o->every, r->o->end, err) ||
+      analysis_open(&r->analysis, &r->out, &r->sim, err))
+    return -1;
   output_log(&r->out, "%s %ld particles, %dD, %d material(s), %s on %s", r->o->command, r->parts->n,
              r->parts->dimension, r->parts->materials, integrator_of(par->integrator)->about,
              r->sim.about);
-  if (output_conserved(&r->out, &r->sim, NULL, err)) return -1;
+  if (output_conserved(&r->out, &r->sim, NULL, err) || analyse(r, err)) return -1;
   return output_snapshot(&r->out, &r->sim, r->parts, err);
 }
 
@@ -69,7 +81,7 @@ static int same_run(const Parts *checkpoint, const Param *par, Parts *input, Err
                    checkpoint->n, input->n);
   for (int i = 0; i < input->parameters; i++) {
     const char *line = input->parameter[i];
-    if (strncmp(line, "output.", 7) == 0) continue;
+    if (strncmp(line, "output.", 7) == 0 || strncmp(line, "analysis.", 9) == 0) continue;
     if (i >= checkpoint->parameters || strcmp(line, checkpoint->parameter[i]) != 0)
       return err_set(err, "the checkpoint was made with another '%.*s': it belongs to another run",
                      (int)strcspn(line, "\t"), line);
@@ -85,7 +97,9 @@ static int resume(Run *r, const Param *par, Parts *checkpoint, Err *err)
   if (sim_restart(&r->sim, par, checkpoint, r->o->device, err)) return -1;
   r->sim.profile = r->o->profile;
   if (output_claim(&r->out, r->o->dir, err)) return -1;
-  if (output_resume(&r->out, start, r->o->every, r->o->end, &r->sim, err)) return -1;
+  if (output_resume(&r->out, start, r->o->every, r->o->end, &r->sim, err) ||
+      analysis_resume(&r->analysis, &r->out, &r->sim, err))
+    return -1;
   output_log(&r->out, "continued from step %ld, t = %.9g s on %s", r->sim.step, r->sim.time,
              r->sim.about);
   return 0;
@@ -109,13 +123,18 @@ static void show(Run *r, const SimStep *done)
  * error. */
 static int look_around(Run *r, const SimStep *done, Err *err)
 {
-  int due = r->sim.time >= output_due(&r->out);
+  int due = r->sim.time >= output_due(&r->out), converged;
   show(r, done);
-  if (output_look(&r->out, err)) return -1;
-  if (due || r->sim.step % r->sim.par.log_every == 0)
+  if (output_look(&r->out, err) || analyse(r, err)) return -1;
+  converged = analysis_converged(&r->analysis, &r->sim.par);
+  if (due || converged || r->sim.step % r->sim.par.log_every == 0)
     if (output_conserved(&r->out, &r->sim, done, err)) return -1;
-  if (due && output_snapshot(&r->out, &r->sim, r->parts, err)) return -1;
-  if (r->sim.time >= r->o->end) return save(r, err) || output_wait(&r->out, err) ? -1 : 0;
+  if ((due || converged) && output_snapshot(&r->out, &r->sim, r->parts, err)) return -1;
+  if (converged && r->sim.time < r->o->end)
+    output_log(&r->out, "the bound masses have converged at step %ld, t = %.9g s", r->sim.step,
+               r->sim.time);
+  if (converged || r->sim.time >= r->o->end)
+    return save(r, err) || output_wait(&r->out, err) ? -1 : 0;
   if (stop_signal || progress_clock() - r->began > r->o->max_wall) {
     if (save(r, err) || output_wait(&r->out, err)) return -1;
     output_log(&r->out, "stopped at step %ld, t = %.9g s: %s", r->sim.step, r->sim.time,
@@ -129,7 +148,7 @@ static int look_around(Run *r, const SimStep *done, Err *err)
 static int loop(Run *r, Err *err)
 {
   SimStep done;
-  int go = r->sim.time < r->o->end;
+  int go = r->sim.time < r->o->end && !analysis_converged(&r->analysis, &r->sim.par);
   progress_start(&r->bar, "solver", 60);
   while (go == 1) {
     if (sim_advance(&r->sim, fmin(output_due(&r->out), r->o->end), &done, err))
@@ -172,6 +191,7 @@ int run_system(const RunOptions *o, const Param *par, Parts *parts, Err *err)
     err_warn("up to %.0f particles were outside the table of their equation of state: see run.log",
              r.out.most_outside);
   if (rc >= 0 && o->profile) profile_print(&r.sim, r.sim.step - r.first_step, stderr);
+  analysis_close(&r.analysis);
   output_close(&r.out);
   sim_close(&r.sim);
   part_free(checkpoint);

@@ -52,14 +52,17 @@ sample() {
   [ "$(histo --linear t.tsv | rows | tail -1 | cut -f 2,3)" = $'0\t3' ]
   table </dev/null >none.tsv
   [ "$(histo none.tsv | rows | wc -l)" = 0 ]
-  histo -o none.png none.tsv >/dev/null 2>messages && [ ! -s messages ] && [ -s none.png ]
+  histo -o none.png none.tsv >/dev/null 2>messages
+  [ ! -s messages ]
+  [ -s none.png ]
 }
 
 @test "pictures" {
   sample 0.9 1 1000 300 | table >t.tsv
   for options in '' '--bins 10' '--bins 10 --linear -c v' '--fit 1:500 --title x'; do
     histo $options -o p.png t.tsv >/dev/null 2>messages
-    [ ! -s messages ] && [ "$(od -A n -t x1 -N 4 p.png | tr -d ' ')" = 89504e47 ] && rm p.png
+    [ ! -s messages ]
+    [ "$(od -A n -t x1 -N 4 p.png | tr -d ' ')" = 89504e47 ] && rm p.png
   done
 }
 
