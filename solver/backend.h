@@ -87,6 +87,9 @@ struct Sim {
   Material *material; /* [materials], host */
   int materials;
   int solid;    /* any material with a shear modulus, and strength on */
+  int fluid;    /* any other */
+  int viscous;  /* physical viscosity */
+  int tensor;   /* forces need the velocity gradient and a stress: solid, or viscous */
   int rare;     /* any material with laws that few runs need (material_rare) */
   int porous;   /* any material with pores */
   int heated;   /* any material whose strength has a temperature of its own, and strength on */

@@ -12,7 +12,9 @@
 #define CONFLICTS(C) \
   C("gravity.every", "integrator", p->gravity_every > 1 && integrator_of(p->integrator) != &integrator_leapfrog, \
     "only leapfrog kicks with gravity in steps of its own") \
-  C("step.max", "step.min", p->step_max > 0 && p->step_max <= p->step_min, "no step is left between the two")
+  C("step.max", "step.min", p->step_max > 0 && p->step_max <= p->step_min, "no step is left between the two") \
+  C("heating.profile", "heating.radius", p->deposit_profile && p->deposit_radius == 0, "it needs a radius") \
+  C("heating.begin", "heating.end", p->deposit_begin >= p->deposit_end, "no time is left between the two")
 
 /* U(key, condition, because): the key, when it is not at its default, has no effect on this run
  * because of `because`: a key, whose value is then said, or a reason in words. */
@@ -35,7 +37,21 @@
   U("analysis.max_virial", !(p->analysis_every > 0), "analysis.every") \
   U("analysis.converged", !(p->analysis_every > 0), "analysis.every") \
   U("analysis.window", !(p->analysis_converged > 0), "analysis.converged") \
-  U("analysis.after", !(p->analysis_converged > 0), "analysis.converged")
+  U("analysis.after", !(p->analysis_converged > 0), "analysis.converged") \
+  U("viscosity.kinematic", s->solid && !s->fluid, "all matter here has a shear modulus") \
+  U("viscosity.shakura_sunyaev", s->solid && !s->fluid, "all matter here has a shear modulus") \
+  U("viscosity.aspect", !(p->shakura > 0), "viscosity.shakura_sunyaev") \
+  U("viscosity.bulk", s->solid && !s->fluid, "all matter here has a shear modulus") \
+  U("viscosity.compression", s->solid && !s->fluid, "all matter here has a shear modulus") \
+  U("heating.rate", p->energy != PARAM_FULL, "energy") \
+  U("heating.profile", p->deposit == 0, "heating.rate") \
+  U("heating.radius", p->deposit == 0, "heating.rate") \
+  U("heating.axis", p->deposit_radius == 0, "heating.radius") \
+  U("heating.x", p->deposit_radius == 0, "heating.radius") \
+  U("heating.y", p->deposit_radius == 0, "heating.radius") \
+  U("heating.z", p->deposit_radius == 0, "heating.radius") \
+  U("heating.begin", p->deposit == 0, "heating.rate") \
+  U("heating.end", p->deposit == 0, "heating.rate")
 /* clang-format on */
 
 /* conflict_check: the first row of CONFLICTS that holds, as `a = 1 cannot go with b = 2: why`; 0 if

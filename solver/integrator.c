@@ -11,6 +11,15 @@ static const struct integrator *const integrators[] = {
 
 const struct integrator *integrator_of(int index) { return integrators[index]; }
 
+int integrator_gravity(Sim *sim, Err *err)
+{
+  const double *f = sim->par.force;
+  const Step k = sim_step(sim, 0);
+  if (sim->b->gravity(sim, err)) return -1;
+  if (f[0] != 0 || f[1] != 0 || f[2] != 0) sim->b->pass(sim, PASS_BODY_FORCE, &k);
+  return 0;
+}
+
 int integrator_rates(Sim *sim, Step *k, Err *err)
 {
   sim->b->pass(sim, PASS_STILL, k);
@@ -20,7 +29,7 @@ int integrator_rates(Sim *sim, Step *k, Err *err)
   sim->b->gradient(sim);
   sim->b->pass(sim, PASS_LOCAL, k);
   sim->b->force(sim);
-  return sim->b->gravity(sim, err);
+  return integrator_gravity(sim, err);
 }
 
 int integrator_stage(Sim *sim, Step *k, int slot, Err *err)

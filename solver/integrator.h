@@ -36,6 +36,9 @@ INTEGRATORS(INTEGRATOR_EXTERN)
 /* integrator_of: the struct of a Param.integrator. */
 const struct integrator *integrator_of(int index);
 
+/* integrator_gravity: adds what acts from afar to the accelerations: self-gravity, body force. */
+int integrator_gravity(Sim *sim, Err *err);
+
 /* integrator_rates: one evaluation of everything at x, v, rho, u, s, h: search, loop A (at y = x),
  * EOS, gravity, loop B. */
 int integrator_rates(Sim *sim, Step *step, Err *err);

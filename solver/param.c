@@ -55,6 +55,29 @@ static const CfgRow viscosity[] = {
    "linear artificial viscosity of 001 eq. 32, h the full support: 0.5 is the 1 of codes with half of it"},
   {"beta", CFG_REAL, AT(beta), "1", "0.5", 0, 100,
    "quadratic artificial viscosity: 0.5 is the 2 of codes with half the support"},
+  {"kinematic", CFG_REAL, AT(shear), "m^2/s", "0", 0, 1e300, "constant kinematic viscosity of fluids (Navier-Stokes)"},
+  {"shakura_sunyaev", CFG_REAL, AT(shakura), "1", "0", 0, 10, "alpha of a kinematic viscosity alpha c H of fluids, H = aspect times the distance from the origin"},
+  {"aspect", CFG_REAL, AT(aspect), "1", "0.05", 0, 10, "H/r for shakura_sunyaev"},
+  {"bulk", CFG_REAL, AT(bulk), "m^2/s", "0", 0, 1e300, "constant kinematic bulk viscosity of fluids"},
+  {"compression", CFG_REAL, AT(compression), "1", "0", 0, 100,
+   "f of a kinematic bulk viscosity f h^2 |div v| of fluids under compression (Kley 1999: 0.5)"},
+};
+static const CfgRow force[] = {
+  {"x", CFG_REAL, AT(force[0]), "m/s^2", "0", ANY, "constant body force along x"},
+  {"y", CFG_REAL, AT(force[1]), "m/s^2", "0", ANY, "along y"},
+  {"z", CFG_REAL, AT(force[2]), "m/s^2", "0", ANY, "along z"},
+};
+static const CfgRow heating[] = {
+  {"rate", CFG_REAL, AT(deposit), "W/kg", "0", ANY, "energy from outside at the centre; 0: none"},
+  {"profile", CFG_CHOICE, AT(deposit_profile), "uniform|gaussian", "uniform", ANY,
+   "rate within the radius, or rate exp(-r^2/(2 radius^2))"},
+  {"radius", CFG_REAL, AT(deposit_radius), "m", "0", 0, 1e300, "of the heated region; 0: everywhere"},
+  {"axis", CFG_CHOICE, AT(deposit_axis), "none|x|y|z", "none", ANY, "a ball, or a beam along an axis through the centre"},
+  {"x", CFG_REAL, AT(deposit_centre[0]), "m", "0", ANY, "centre"},
+  {"y", CFG_REAL, AT(deposit_centre[1]), "m", "0", ANY, "centre"},
+  {"z", CFG_REAL, AT(deposit_centre[2]), "m", "0", ANY, "centre"},
+  {"begin", CFG_REAL, AT(deposit_begin), "s", "-1e300", ANY, "from this time on"},
+  {"end", CFG_REAL, AT(deposit_end), "s", "1e300", ANY, "to this time"},
 };
 static const CfgRow smoothing[] = {
   {"mode", CFG_CHOICE, AT(smoothing), "fixed|density|neighbours", "density", ANY,
@@ -104,6 +127,8 @@ static const Group groups[] = {GROUP("", top),
                                GROUP("strength", strength),
                                GROUP("gravity", gravity),
                                GROUP("viscosity", viscosity),
+                               GROUP("force", force),
+                               GROUP("heating", heating),
                                GROUP("smoothing", smoothing),
                                GROUP("step", step),
                                GROUP("damping", damping),

@@ -20,6 +20,10 @@ typedef struct {
   int gravity, gravity_every;
   double theta, G;
   double alpha, beta;
+  double shear, bulk, shakura, aspect, compression;
+  double force[3];
+  double deposit, deposit_centre[3], deposit_radius, deposit_begin, deposit_end;
+  int deposit_profile, deposit_axis;
   int smoothing;
   double neighbours, h_min, h_max;
   double cfl, step_acceleration, step_density, step_error, step_min, step_max;

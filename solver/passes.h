@@ -6,7 +6,7 @@
 #define PASSES_H
 
 #include "../physics/pair.h"
-#include "matter.h"
+#include "fluid.h"
 
 enum { BODIES = 8 };
 
@@ -25,6 +25,9 @@ typedef struct {
   int slot, rates;      /* saved arrays to work on; whether rates are saved instead of the state */
   double weight[3];     /* of the saved rates 1..3 in a combination */
   double pull;          /* weight of gravity in this kick, over that of the other forces, minus 1 */
+  int viscous;          /* physical viscosity */
+  Fluid fluid;
+  Deposit deposit;
 } Step;
 
 /* Why a step is as short as it is; what conserved.tsv and the log name. */
@@ -108,8 +111,15 @@ HD double passes_work(const State *s, long i, double p, Sym dev, double rho, int
   return w / rho;
 }
 
-/* passes_pack: p and S C as the force loop takes them: p above the pressure outside, which thereby
- * acts on free surfaces. C, the inverse moment matrix of loop A,
+/* passes_deposit: the energy that i receives from outside in this step [J/kg]. */
+HD double passes_deposit(const State *s, const Step *k, long i)
+{
+  return k->deposit.rate != 0 ? k->dt * fluid_deposit(&k->deposit, &s->x[3 * i]) : 0;
+}
+
+/* passes_pack: p and S C (of a viscous fluid its stress times C) as the force loop takes them: p
+ * above the pressure outside, which thereby acts on free surfaces. C, the inverse moment matrix of
+ * loop A,
  * is turned by the spin over dt, from loop A's positions to those of the force loop. As C also
  * corrects the gradient that drives S, the two are adjoint; and as sum V_j r W' C = 1, the stress
  * exerts no torque on a neighbourhood (Bonet & Lok 1999, CMAME 180, 97). */
@@ -120,9 +130,11 @@ HD void passes_pack(const State *s, const Step *k, long i, int solid, double dt)
   double p = s->p[i] < 0 ? (1 - s->damage[i]) * s->p[i] : s->p[i];
   s->push[i] = (p - k->outer) * size * size;
   for (int d = 0; d < 9 && !solid && s->t; d++) t[d] = 0;
-  if (solid) {
+  if (solid || k->viscous) {
     Sym c = passes_rotate(passes_stress(&s->cm[6 * i]), &s->g[9 * i], dt);
-    tensor_product(tensor_scale(passes_stress(&s->s[6 * i]), left), c, t);
+    Sym dev =
+        solid ? tensor_scale(passes_stress(&s->s[6 * i]), left) : fluid_stress(s, &k->fluid, i);
+    tensor_product(dev, c, t);
   }
 }
 
@@ -212,7 +224,8 @@ HD void pass_advance(const State *s, const Step *k, long i)
   const double *g = &s->g[9 * i], mu = k->strength ? s->material[s->mat[i]].mu : 0;
   const double alpha = matter_distention(s, i);
   int solid = mu > 0;
-  double p = s->p[i], u = s->u[i], heat = k->energy == 0 ? s->dqdt[i] : 0, work;
+  double p = s->p[i], u = s->u[i] + passes_deposit(s, k, i), work;
+  const double heat = k->energy == 0 ? s->dqdt[i] : 0;
   Sym old = passes_own_stress(s, i, solid), mid = old;
   passes_density(s, k, i);
   if (solid) {
@@ -231,7 +244,7 @@ HD void pass_advance(const State *s, const Step *k, long i)
     matter_eos(s, i, u + k->dt * (work + heat), k->strength);
   }
   if (s->rare && s->alpha) matter_compact(s, i, alpha, mu > 0, k->damage);
-  if (mu > 0) matter_yield(s, i, 1, k->dt * heat, k->dt);
+  if (mu > 0) matter_yield(s, i, 1, k->dt * heat + passes_deposit(s, k, i), k->dt);
   if (k->damage) passes_damage(s, i, k->dt);
   passes_pack(s, k, i, mu > 0, 0.5 * k->dt);
 }
@@ -269,6 +282,7 @@ HD void pass_finish(const State *s, const Step *k, long i)
   }
   if (k->energy == 0) s->u[i] += half * (s->dudt[i] + s->du[i]);
   if (k->energy == 0 && k->outer > 0) s->u[i] += k->dt * passes_outer(s, k, i, s->rhoa[i]);
+  if (k->deposit.rate != 0) s->u[i] += passes_deposit(s, k, i);
   if (k->energy == 1) s->u[i] = s->ue[i];
   if (s->u[i] < k->energy_floor) s->u[i] = k->energy_floor;
   s->dudt[i] = s->du[i];
@@ -307,6 +321,8 @@ HD void pass_local(const State *s, const Step *k, long i)
  * entropy), or none. */
 HD double passes_heating(const State *s, const Step *k, long i)
 {
+  if (k->energy == 0 && k->deposit.rate != 0)
+    return s->du[i] + passes_outer(s, k, i, s->rho[i]) + fluid_deposit(&k->deposit, &s->x[3 * i]);
   if (k->energy == 0) return s->du[i] + passes_outer(s, k, i, s->rho[i]);
   return k->energy == 1 ? -s->p[i] * s->divv[i] / s->rho[i] : 0;
 }
@@ -385,6 +401,13 @@ HD void pass_combine(const State *s, const Step *k, long i)
 /* damp: the damping of an evaluation of rk2-adaptive. */
 HD void pass_damp(const State *s, const Step *k, long i) { passes_damp(s, k, i, &s->acc[3 * i]); }
 
+/* body_force: adds the constant body force to an evaluation's accelerations. */
+HD void pass_body_force(const State *s, const Step *k, long i)
+{
+  (void)k;
+  for (int d = 0; d < 3; d++) s->acc[3 * i + d] += s->force[d];
+}
+
 /* settle: the state that combine has reached: h towards the wanted neighbours, EOS, yield. */
 HD void pass_settle(const State *s, const Step *k, long i)
 {
@@ -393,7 +416,9 @@ HD void pass_settle(const State *s, const Step *k, long i)
   s->h[i] = h < k->h_min ? k->h_min : h > k->h_max ? k->h_max : h;
   matter_eos(s, i, s->u[i], k->strength);
   if (s->rare && s->alpha) matter_compact(s, i, alpha, solid, k->damage);
-  if (solid) matter_yield(s, i, 1, k->energy == 0 ? k->dt * s->dqdt[i] : 0, k->dt);
+  if (solid)
+    matter_yield(s, i, 1, (k->energy == 0 ? k->dt * s->dqdt[i] : 0) + passes_deposit(s, k, i),
+                 k->dt);
 }
 
 /* pass_correct: divv, and the corrected velocity gradient g = raw C with C, the inverse of the
@@ -451,7 +476,7 @@ HD int pass_bad(const State *s, long i)
 #define PASSES_EOS(X) X(ADVANCE, advance) X(LOCAL, local) X(SETTLE, settle)
 #define PASSES(X) \
   X(KICK, kick) X(DRIFT, drift) X(FINISH, finish) X(STILL, still) X(SAVE, save) X(COMBINE, combine) \
-  X(DAMP, damp) X(REMEMBER, remember) X(RECALL, recall) PASSES_EOS(X)
+  X(DAMP, damp) X(REMEMBER, remember) X(RECALL, recall) X(BODY_FORCE, body_force) PASSES_EOS(X)
 /* clang-format on */
 
 enum {

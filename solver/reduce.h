@@ -21,6 +21,8 @@ HD void reduce_add_sums(ReduceSums *o, const State *s, long i)
   double l[3] = {x[1] * v[2] - x[2] * v[1], x[2] * v[0] - x[0] * v[2], x[0] * v[1] - x[1] * v[0]};
   o->v[0] += m, o->v[1] += 0.5 * m * v2, o->v[2] += m * s->u[i], o->v[3] += 0.5 * m * s->phi[i];
   for (int d = 0; d < 3; d++)
+    if (s->force[d] != 0) o->v[3] -= m * s->force[d] * x[d];
+  for (int d = 0; d < 3; d++)
     o->v[4 + d] += m * v[d], o->v[7 + d] += m * l[d], o->v[10 + d] += m * x[d];
   o->v[13] += m * sqrt(v2), o->v[14] += m * sqrt(l[0] * l[0] + l[1] * l[1] + l[2] * l[2]);
   if (s->rare && s->material[s->mat[i]].eos.form == EOS_TABLE) {

@@ -16,6 +16,17 @@ static const char *const bad_names[] = {"nothing",
                                         "acceleration is not finite",
                                         "stress is not finite"};
 
+/* The energy from outside in a step that begins now: what of it lies within begin and end. */
+static Deposit deposit_of(const Sim *sim, double dt)
+{
+  const Param *p = &sim->par;
+  const double from = fmax(sim->time, p->deposit_begin), to = fmin(sim->time + dt, p->deposit_end);
+  Deposit q = {0, {0, 0, 0}, p->deposit_radius, p->deposit_profile, p->deposit_axis};
+  memcpy(q.centre, p->deposit_centre, sizeof q.centre);
+  if (dt > 0 && to > from) q.rate = p->deposit * (to - from) / dt;
+  return q;
+}
+
 Step sim_step(const Sim *sim, double dt)
 {
   const Param *p = &sim->par;
@@ -31,6 +42,9 @@ Step sim_step(const Sim *sim, double dt)
   k.cfl = p->cfl, k.acceleration = p->step_acceleration;
   k.step_density = p->step_density;
   k.damping = p->damping, k.damping_radial = p->damping_radial;
+  k.viscous = sim->viscous;
+  k.fluid = (Fluid){p->shear, p->bulk, p->shakura, p->aspect, p->compression};
+  k.deposit = deposit_of(sim, dt);
   return k;
 }
 
@@ -61,11 +75,16 @@ static int open_common(Sim *sim, const Param *par, const Parts *p, const char *d
   if (!(sim->material = material_load(p, err))) return -1;
   for (int k = 0; k < p->materials; k++) {
     const Material *m = &sim->material[k];
-    sim->solid |= par->strength && m->mu > 0;
+    if (par->strength && m->mu > 0)
+      sim->solid = 1;
+    else
+      sim->fluid = 1;
     sim->rare |= material_rare(m);
     sim->porous |= material_distends(m);
     sim->heated |= par->strength && material_heats(m);
   }
+  sim->viscous = par->shear > 0 || par->bulk > 0 || par->shakura > 0 || par->compression > 0;
+  sim->tensor = sim->solid || sim->viscous;
   sim->s.dimension = p->dimension;
   return conflict_check(par, sim, err);
 }
@@ -104,6 +123,7 @@ static int hand_over(Sim *sim, const Parts *p, Err *err)
   if (alpha) whole.alpha = alpha;
   bad = bad || sim->b->open(sim, &whole, err);
   free(T), free(alpha);
+  memcpy(sim->s.force, sim->par.force, sizeof sim->s.force);
   return bad ? -1 : 0;
 }
 

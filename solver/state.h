@@ -52,6 +52,7 @@ typedef struct {
   int rare;                 /* any material has laws that few runs need (material_rare) */
   const Material *material; /* [materials], indexed by mat */
   const double *flaw;       /* thresholds of all particles, ascending within one */
+  double force[3];          /* constant body force [m/s^2] */
 #define STATE_MEMBER(TYPE, MEMBER, ...) TYPE *MEMBER;
   ALL_FIELDS(STATE_MEMBER)
   MOVED_FIELDS(STATE_MEMBER)

@@ -9,6 +9,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <cmocka.h>
@@ -42,6 +43,16 @@ static inline Param lab_param(const char *first, ...)
     if (param_set(&par, s, &err)) fail_msg("%s", err.text);
   va_end(args);
   return par;
+}
+
+/* lab_set: more settings, a space between two; NULL: none. */
+static inline void lab_set(Param *par, const char *settings)
+{
+  char copy[1024], *rest = copy;
+  Err err;
+  snprintf(copy, sizeof copy, "%s", settings ? settings : "");
+  for (char *word; (word = strtok_r(rest, " ", &rest));)
+    if (param_set(par, word, &err)) fail_msg("%s", err.text);
 }
 
 /* lab_device: where the tests run: BRECCIA_TEST_DEVICE, or cpu. */

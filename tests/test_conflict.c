@@ -8,6 +8,7 @@
  * which the same key has an effect. */
 typedef struct {
   const char *key, *with, *fine, *text;
+  Sim sim; /* what the materials must be for it */
 } Case;
 
 static const Case unused[] = {
@@ -29,6 +30,46 @@ static const Case unused[] = {
      "step.error = 0.001 has no effect: integrator = leapfrog"},
     {"damping.radial=true", "damping.rate=0", "damping.rate=1",
      "damping.radial = true has no effect: damping.rate = 0"},
+    {"viscosity.kinematic=1",
+     "strength.on=true",
+     "strength.on=true",
+     "viscosity.kinematic = 1 has no effect: all matter here has a shear modulus",
+     {.solid = 1}},
+    {"viscosity.shakura_sunyaev=1",
+     "strength.on=true",
+     "strength.on=true",
+     "viscosity.shakura_sunyaev = 1 has no effect: all matter here has a shear modulus",
+     {.solid = 1}},
+    {"viscosity.aspect=1", "viscosity.shakura_sunyaev=0", "viscosity.shakura_sunyaev=0.1",
+     "viscosity.aspect = 1 has no effect: viscosity.shakura_sunyaev = 0"},
+    {"viscosity.bulk=1",
+     "strength.on=true",
+     "strength.on=true",
+     "viscosity.bulk = 1 has no effect: all matter here has a shear modulus",
+     {.solid = 1}},
+    {"viscosity.compression=1",
+     "strength.on=true",
+     "strength.on=true",
+     "viscosity.compression = 1 has no effect: all matter here has a shear modulus",
+     {.solid = 1}},
+    {"heating.rate=1", "energy=frozen", "energy=full",
+     "heating.rate = 1 has no effect: energy = frozen"},
+    {"heating.profile=gaussian", "heating.rate=0", "heating.rate=1",
+     "heating.profile = gaussian has no effect: heating.rate = 0"},
+    {"heating.radius=1", "heating.rate=0", "heating.rate=1",
+     "heating.radius = 1 has no effect: heating.rate = 0"},
+    {"heating.axis=x", "heating.radius=0", "heating.radius=1 heating.rate=1",
+     "heating.axis = x has no effect: heating.radius = 0"},
+    {"heating.x=1", "heating.radius=0", "heating.radius=1 heating.rate=1",
+     "heating.x = 1 has no effect: heating.radius = 0"},
+    {"heating.y=1", "heating.radius=0", "heating.radius=1 heating.rate=1",
+     "heating.y = 1 has no effect: heating.radius = 0"},
+    {"heating.z=1", "heating.radius=0", "heating.radius=1 heating.rate=1",
+     "heating.z = 1 has no effect: heating.radius = 0"},
+    {"heating.begin=1", "heating.rate=0", "heating.rate=1",
+     "heating.begin = 1 has no effect: heating.rate = 0"},
+    {"heating.end=1", "heating.rate=0", "heating.rate=1",
+     "heating.end = 1 has no effect: heating.rate = 0"},
 };
 
 static const Case conflicts[] = {
@@ -37,19 +78,24 @@ static const Case conflicts[] = {
      "in steps of its own"},
     {"step.max=1e-3", "step.min=1e-2", "step.min=1e-4",
      "step.max = 0.001 cannot go with step.min = 0.01: no step is left between the two"},
+    {"heating.profile=gaussian", "heating.radius=0", "heating.radius=1",
+     "heating.profile = gaussian cannot go with heating.radius = 0: it needs a radius"},
+    {"heating.begin=2", "heating.end=1", "heating.end=3",
+     "heating.begin = 2 cannot go with heating.end = 1: no time is left between the two"},
 };
 
 static void check(const Case *c, long n, long rows, int (*look)(const Param *, const Sim *, Err *))
 {
-  const Sim sim = {0};
+  const Sim none = {0};
   assert_int_equal(n, rows);
   for (long k = 0; k < n; k++) {
-    Param bad = lab_param(c[k].key, c[k].with, NULL), good = lab_param(c[k].key, c[k].fine, NULL),
+    Param bad = lab_param(c[k].key, c[k].with, NULL), good = lab_param(c[k].key, NULL),
           without = lab_param(c[k].with, NULL);
+    lab_set(&good, c[k].fine);
     Err err;
-    assert_int_equal(look(&bad, &sim, &err), -1);
+    assert_int_equal(look(&bad, &c[k].sim, &err), -1);
     assert_string_equal(err.text, c[k].text);
-    if (look(&good, &sim, &err) || look(&without, &sim, &err)) fail_msg("%s", err.text);
+    if (look(&good, &none, &err) || look(&without, &c[k].sim, &err)) fail_msg("%s", err.text);
   }
 }
 

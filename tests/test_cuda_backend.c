@@ -260,6 +260,8 @@ static Step any_step(const Sim *sim, uint64_t seed)
   k.density = (int)(3 * rng_uniform(1, seed, 0)), k.energy = (int)(3 * rng_uniform(1, seed, 1));
   k.smoothing = (int)(3 * rng_uniform(1, seed, 2)), k.damage = rng_uniform(1, seed, 3) < 0.7;
   k.strength = rng_uniform(1, seed, 4) < 0.7, k.rates = rng_uniform(1, seed, 5) < 0.5;
+  k.viscous = rng_uniform(1, seed, 11) < 0.3, k.fluid = (Fluid){.1, .2, .3, .1, .5};
+  k.deposit = (Deposit){seed % 3, {.1, .2, .3}, .7, seed % 2, (int)(seed % 4)};
   k.damping = rng_uniform(1, seed, 6) < 0.5 ? 0.3 : 0, k.damping_radial = seed % 2;
   k.slot = (int)(4 * rng_uniform(1, seed, 7));
   for (int w = 0; w < 3; w++) k.weight[w] = rng_uniform(1, seed, 8 + (uint32_t)w);
@@ -371,7 +373,11 @@ static void reductions(void **state)
 typedef struct {
   const char *integrator, *density, *strength, *kernel;
   int dimension;
+  const char *more;
 } LoopCase;
+#define FLUID                                                                                      \
+  "viscosity.kinematic=0.1 viscosity.bulk=0.1 viscosity.shakura_sunyaev=0.1 "                      \
+  "viscosity.compression=0.5 heating.rate=1 heating.radius=0.5 heating.profile=gaussian"
 static const LoopCase loop_cases[] = {
     {"integrator=leapfrog", "density=continuity", "strength.on=true", "kernel=wendland_c2", 3},
     {"integrator=leapfrog", "density=sum", "strength.on=false", "kernel=cubic_spline", 3},
@@ -379,6 +385,11 @@ static const LoopCase loop_cases[] = {
     {"integrator=leapfrog", "density=miscible", "strength.on=false", "kernel=wendland_c2", 2},
     {"integrator=leapfrog", "density=sum", "strength.on=true", "kernel=quintic_spline", 2},
     {"integrator=leapfrog", "density=sum", "strength.on=true", "kernel=cubic_spline", 1},
+    {"integrator=leapfrog", "density=sum", "strength.on=false", "kernel=wendland_c2", 2, FLUID},
+    {"integrator=leapfrog", "density=continuity", "strength.on=true", "kernel=wendland_c2", 3,
+     FLUID},
+    {"integrator=leapfrog", "density=continuity", "strength.on=false", "kernel=wendland_c2", 1,
+     FLUID},
 };
 
 /* One evaluation after a search on the same state, without gravity: order, neighbours, loops. */
@@ -408,7 +419,7 @@ static void loops(Sim sim[2], const char *precision, const char *what)
 static void all_loops(void **state)
 {
   static const char *const precisions[] = {"precision=double", "precision=mixed"};
-  char what[128];
+  char what[512];
   (void)state;
   for (size_t c = 0; c < sizeof loop_cases / sizeof *loop_cases; c++)
     for (int k = 0; k < 2; k++) {
@@ -417,9 +428,10 @@ static void all_loops(void **state)
       if (l->dimension > 1 && k == 0) p->h[123] *= 12; /* its list is one for a whole warp */
       Param par = lab_param(l->integrator, l->density, l->strength, l->kernel, precisions[k],
                             "gravity.method=none", NULL);
+      lab_set(&par, l->more);
       Sim sim[2];
-      snprintf(what, sizeof what, "%s %s %s %dD", l->density, l->strength, precisions[k],
-               l->dimension);
+      snprintf(what, sizeof what, "%s %s %s %dD %s", l->density, l->strength, precisions[k],
+               l->dimension, l->more ? l->more : "");
       open_both(sim, &par, p);
       loops(sim, precisions[k], what);
       close_both(sim), part_free(p);

@@ -90,6 +90,9 @@ typedef struct {
   const char *integrator, *density, *gravity, *more;
 } Case;
 
+#define FLUID                                                                                      \
+  "viscosity.kinematic=0.01 viscosity.compression=0.5 heating.rate=0.1 heating.end=0.1 "           \
+  "force.x=0.1"
 static const Case cases[] = {
     {"integrator=leapfrog", "density=continuity", "gravity.method=tree", "step.cfl=0.4"},
     {"integrator=leapfrog", "density=sum", "gravity.method=direct", "damping.rate=0.1"},
@@ -98,6 +101,8 @@ static const Case cases[] = {
     {"integrator=leapfrog", "density=continuity", "gravity.method=none",
      "smoothing.mode=neighbours"},
     {"integrator=leapfrog", "density=continuity", "gravity.method=none", "energy=isentropic"},
+    {"integrator=leapfrog", "density=continuity", "gravity.method=none", FLUID},
+    {"integrator=rk2-adaptive", "density=continuity", "gravity.method=none", FLUID},
     {"integrator=rk2-adaptive", "density=continuity", "gravity.method=tree", "step.error=1e-3"},
     {"integrator=rk2-adaptive", "density=sum", "gravity.method=direct", "step.error=1e-4"},
     {"integrator=rk2-adaptive", "density=miscible", "gravity.method=tree", "strength.on=false"},
@@ -111,7 +116,9 @@ static const Case cases[] = {
 
 static Param settings(const Case *c)
 {
-  return lab_param("gravity.G=0.1", c->integrator, c->density, c->gravity, c->more, NULL);
+  Param par = lab_param("gravity.G=0.1", c->integrator, c->density, c->gravity, NULL);
+  lab_set(&par, c->more);
+  return par;
 }
 
 static double most(const double *a, long n)

@@ -183,7 +183,7 @@ typedef void Range(const Sim *sim, Pack *b, long from, long to);
 #define STAMP(NAME, CALL) \
   static void NAME(const Sim *sim, Pack *b, long from, long to) { (void)b, CALL; }
 #define STAMPS(CAPITAL, NAME, ...) \
-  STAMP(gradient_line_##NAME, gradients(sim, b, from, to, KERNEL_##CAPITAL, 1, sim->solid)) \
+  STAMP(gradient_line_##NAME, gradients(sim, b, from, to, KERNEL_##CAPITAL, 1, sim->tensor)) \
   STAMP(gradient_fluid_##NAME, gradients(sim, b, from, to, KERNEL_##CAPITAL, 0, 0)) \
   STAMP(gradient_solid_##NAME, gradients(sim, b, from, to, KERNEL_##CAPITAL, 0, 1)) \
   STAMP(force_line_##NAME, forces(sim, b, from, to, KERNEL_##CAPITAL, 1, 1, sim->miscible)) \
@@ -224,7 +224,7 @@ static void over(Sim *sim, Range *range)
 
 void cpu_gradient(Sim *sim)
 {
-  int which = sim->s.dimension == 1 ? 0 : sim->solid ? 2 : 1;
+  int which = sim->s.dimension == 1 ? 0 : sim->tensor ? 2 : 1;
   backend_begin(sim, TIMER_A);
   records(sim, 0);
   over(sim, gradient_stamps[sim->par.kernel][which]);
@@ -233,7 +233,7 @@ void cpu_gradient(Sim *sim)
 
 void cpu_force(Sim *sim)
 {
-  int which = sim->s.dimension == 1 ? 0 : 1 + !!sim->solid + 2 * !!sim->miscible;
+  int which = sim->s.dimension == 1 ? 0 : 1 + !!sim->tensor + 2 * !!sim->miscible;
   backend_begin(sim, TIMER_B);
   records(sim, 1);
   over(sim, force_stamps[sim->par.kernel][which]);

@@ -350,7 +350,7 @@ static void gradient(Sim *sim)
 {
   run_loop(sim, pack_flow,
            sim->s.dimension == 1 ? &gradient_line
-                                 : &gradient_stamps[sim->par.kernel][!!sim->solid]);
+                                 : &gradient_stamps[sim->par.kernel][!!sim->tensor]);
 }
 
 static void density(Sim *sim)
@@ -361,7 +361,7 @@ static void density(Sim *sim)
 
 static void force(Sim *sim)
 {
-  const int line = sim->s.dimension == 1, solid = !!sim->solid, miscible = !!sim->miscible;
+  const int line = sim->s.dimension == 1, solid = !!sim->tensor, miscible = !!sim->miscible;
   run_loop(sim, solid || line ? pack_body<1> : pack_body<0>,
            line ? &force_line[miscible] : &force_stamps[sim->par.kernel][solid + 2 * miscible]);
 }
@@ -371,7 +371,7 @@ static size_t rows_of(const Sim *sim) { return ((size_t)sim->s.n + 31) / 32 * 32
 
 static size_t bytes(const Sim *sim)
 {
-  const size_t quads = (sim->solid || sim->s.dimension == 1 ? 4 : 2) * sizeof(Quad),
+  const size_t quads = (sim->tensor || sim->s.dimension == 1 ? 4 : 2) * sizeof(Quad),
                place = PLACE_BYTES;
   return rows_of(sim) * (place + (quads > place ? quads : place));
 }

@@ -54,14 +54,15 @@ static int role_of(const Sim *sim, const char *name, int role)
 {
   const Param *p = &sim->par;
   const int pulls = p->gravity != PARAM_NONE, fresh = p->gravity_every == 1,
-            solid = sim->solid || sim->s.dimension == 1;
+            line = sim->s.dimension == 1;
   if (backend_idle(sim, name)) return IDLE;
   if (among("frag clump", name)) return IDLE; /* what only tools know */
   if (p->density == PARAM_CONTINUITY && among("delta", name)) return IDLE;
   if (!pulls && fresh && among("pull", name)) return IDLE;
   if (sim->slots > 0) return role;
   if (among("ds", name)) return IDLE;
-  if (!solid && among("s strain g cm t", name)) return IDLE;
+  if (!sim->solid && !line && among("s strain", name)) return IDLE;
+  if (!sim->tensor && !line && among("g cm t", name)) return IDLE;
   if (!(sim->solid && p->damage) && among("nact dcrack nflaw flaw0", name)) return IDLE;
   if (among("cs a divv delta signal dcrack nngb", name)) return WORK;
   return pulls && fresh && among("phi pull", name) ? WORK : role;

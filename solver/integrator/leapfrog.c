@@ -41,8 +41,8 @@ static double closing(Sim *sim, double dt)
 
 static int step(Sim *sim, double *dt, Err *err)
 {
-  Step k = sim_step(sim, 0.5 * *dt);
-  k.pull = opening(sim, *dt) - 1;
+  Step k = sim_step(sim, *dt);
+  k.dt = 0.5 * *dt, k.pull = opening(sim, *dt) - 1;
   sim->b->pass(sim, PASS_KICK, &k);
   k.dt = *dt;
   k.pull = closing(sim, *dt) - 1;
@@ -52,7 +52,7 @@ static int step(Sim *sim, double *dt, Err *err)
   sim->b->gradient(sim);
   sim->b->pass(sim, PASS_ADVANCE, &k);
   sim->b->force(sim);
-  if (sim->b->gravity(sim, err)) return -1;
+  if (integrator_gravity(sim, err)) return -1;
   if (k.damping > 0 && sim->b->bodies(sim, &k, err)) return -1;
   sim->b->pass(sim, PASS_FINISH, &k);
   return 0;
