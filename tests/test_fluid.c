@@ -213,8 +213,9 @@ static void fall(void **state)
     const double energy = b.kinetic + b.internal + b.potential - a.kinetic - a.internal;
     print_message("%s: places off by %.1e, momentum %.1e, energy %.1e of %.3g\n", integrators[c],
                   worst, b.momentum[1] + 2 * b.mass, energy, b.kinetic);
-    assert_true(worst < 1e-12 && fabs(b.momentum[1] + 2 * b.mass) < 1e-12);
-    assert_true(fabs(a.potential) < 1e-12 && fabs(energy) < 1e-4 * b.kinetic);
+    const int first = integrator_of(c) == &integrator_euler; /* order */
+    assert_true(worst < (first ? .021 : 1e-12) && fabs(b.momentum[1] + 2 * b.mass) < 1e-12);
+    assert_true(fabs(a.potential) < 1e-12 && fabs(energy) < (first ? .03 : 1e-4) * b.kinetic);
     part_free(p[0]), part_free(p[1]);
   }
 }
