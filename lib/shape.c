@@ -6,9 +6,9 @@ static const double PI = 3.14159265358979323846;
 
 int shape_sizes(ShapeKind kind, int dimension)
 {
-#define SHAPE_SIZES(CAPITAL, NAME, IN3, IN2, ...) {IN3, IN2},
-  static const int sizes[][2] = {SHAPES(SHAPE_SIZES)};
-  return sizes[kind][dimension == 3 ? 0 : 1];
+#define SHAPE_SIZES(CAPITAL, NAME, IN3, IN2, IN1, ...) {IN1, IN2, IN3},
+  static const int sizes[][3] = {SHAPES(SHAPE_SIZES)};
+  return sizes[kind][dimension - 1];
 }
 
 int shape_layered(ShapeKind kind)
@@ -45,7 +45,7 @@ static int within(const Shape *s, const double x[3])
 {
   const double *a = s->size;
   int flat = s->dimension == 2;
-  double up = x[flat ? 1 : 2], side = flat ? 0 : x[1], r;
+  double up = x[flat ? 1 : 2], side = flat ? 0 : x[1], r; /* up: not for a line */
   switch (s->kind) {
   case SHAPE_ELLIPSOID:
     return pow(x[0] / a[0], 2) + pow(x[1] / a[1], 2) + (flat ? 0 : pow(x[2] / a[2], 2)) <= 1;
@@ -54,7 +54,8 @@ static int within(const Shape *s, const double x[3])
   case SHAPE_CYLINDER: return hypot(x[0], x[1]) <= a[0] && up <= 0 && up >= -a[1];
   case SHAPE_HEMISPHERE: return up <= 0 && sqrt(x[0] * x[0] + side * side + up * up) <= a[0];
   case SHAPE_ROD:
-    return fabs(x[0]) <= a[0] / 2 && (flat ? fabs(x[1]) <= a[1] / 2 : hypot(x[1], x[2]) <= a[1]);
+    r = s->dimension == 1 ? 0 : flat ? 2 * fabs(x[1]) : hypot(x[1], x[2]);
+    return fabs(x[0]) <= a[0] / 2 && r <= a[1];
   case SHAPE_RING:
     r = hypot(x[0], x[1]);
     return r >= a[0] && r <= a[1] && (flat || fabs(x[2]) <= a[2] / 2);
@@ -102,7 +103,7 @@ double shape_volume(const Shape *s, int part)
   double deep = flat ? 1 : a[1], wall = a[s->dimension], inner;
   switch (s->kind) {
   case SHAPE_ELLIPSOID: return flat ? PI * a[0] * a[1] : 4 * PI / 3 * a[0] * a[1] * a[2];
-  case SHAPE_ROD: return flat ? a[0] * a[1] : PI * a[1] * a[1] * a[0];
+  case SHAPE_ROD: return a[0] * (s->dimension == 1 ? 1 : flat ? a[1] : PI * a[1] * a[1]);
   case SHAPE_RING: return PI * (a[1] * a[1] - a[0] * a[0]) * (flat ? 1 : a[2]);
   case SHAPE_MESH: return s->mesh->volume;
   case SHAPE_TANK:
@@ -125,7 +126,7 @@ double shape_ball(const Shape *s, double c[3])
   case SHAPE_ELLIPSOID: return fmax(a[0], fmax(a[1], flat ? 0 : a[2]));
   case SHAPE_HEMISPHERE: return a[0];
   case SHAPE_CYLINDER: return c[up] = -a[1] / 2, hypot(a[0], a[1] / 2);
-  case SHAPE_ROD: return hypot(a[0] / 2, flat ? a[1] / 2 : a[1]);
+  case SHAPE_ROD: return s->dimension == 1 ? a[0] / 2 : hypot(a[0] / 2, flat ? a[1] / 2 : a[1]);
   case SHAPE_RING: return hypot(a[1], flat ? 0 : a[2] / 2);
   case SHAPE_MESH:
     for (int d = 0; d < 3; d++) {
@@ -137,4 +138,24 @@ double shape_ball(const Shape *s, double c[3])
     c[up] = -(tall(s) + wall) / 2;
     return sqrt(pow(a[0] / 2 + wall, 2) + pow(flat ? 0 : a[1] / 2 + wall, 2) + c[up] * c[up]);
   }
+}
+
+void shape_box(const Shape *s, double low[3], double high[3])
+{
+  const double *a = s->size;
+  const int flat = s->dimension == 2, up = s->dimension - 1;
+  double half[3] = {a[0], flat ? a[1] : a[0], a[0]};
+  switch (s->kind) {
+  case SHAPE_ELLIPSOID: half[1] = a[1], half[2] = a[2]; break;
+  case SHAPE_ROD: half[0] = a[0] / 2, half[1] = flat ? a[1] / 2 : a[1], half[2] = a[1]; break;
+  case SHAPE_RING: half[0] = half[1] = a[1], half[2] = a[2] / 2; break;
+  case SHAPE_BOX:
+  case SHAPE_TANK: half[0] = a[0] / 2, half[1] = a[1] / 2; break;
+  default: break; /* round about the vertical */
+  }
+  for (int d = 0; d < 3; d++) {
+    low[d] = d < s->dimension ? -half[d] : 0, high[d] = -low[d];
+    if (s->kind == SHAPE_MESH) low[d] = s->mesh->low[d], high[d] = s->mesh->high[d];
+  }
+  if (shape_layered(s->kind) || s->kind == SHAPE_TANK) low[up] = -depth_of(s), high[up] = 0;
 }

@@ -94,5 +94,22 @@ mass() { field "$1" Masses | awk '{ m += $1 } END { printf "%.15g", m }'; }
   bad 2 "--mesh needs --shape mesh" mkshape --mesh a.stl -l ice
   bad 2 "not above the inner" mkshape --shape ring --size 2,1,1 -l ice
   bad 1 "unknown material 'icy'" mkshape --size 1,1,1 -l icy
+  bad 2 "either --number or --spacing" mkshape --size 1,1,1 -l ice -n 9 --spacing 1
+  bad 2 "a grid is not turned" mkshape --size 1,1,1 -l ice --lattice grid --rotate 1
+  bad 2 "density is not positive" mkshape --size 1,1,1 -l ice:rho=-1
+  bad 2 "no box in 1D" mkshape -d 1 --shape box --size 1 -l ice
   bad 1 "holds no particle" mkshape --shape box --size 1m,1m,1m -l ice:1mm -l iron -n 100
+}
+
+@test "a grid tiles its box: lines, planes and space that periodic edges continue; densities as given" {
+  mkshape -d 1 --shape rod --size 1m --spacing 1cm --lattice grid -l water:rho=900 -o r.h5
+  field r.h5 Coordinates 3 | awk '{ d = $1 + 0.5 - (NR - 0.5)/100; if (d*d > 1e-24 || $2 != 0) exit 1 } END { exit NR != 100 }'
+  true_that 'near(m, 900, 1e-12)' m="$(mass r.h5)"
+  mkshape -d 2 --shape box --size 3m,2m --spacing 0.51m --lattice grid -l water -o b.h5 # 6 by 4 cells of 0.5 m
+  read -r x0 x1 y0 y1 z0 z1 < <(extent b.h5)
+  true_that 'near(x1 - x0, 2.5, 1e-9) && near(y0, -1.75, 1e-9) && near(y1, -0.25, 1e-9) && z1 == 0' x0=$x0 x1=$x1 y0=$y0 y1=$y1 z1=$z1
+  mkshape -d 2 --shape tank --size 1m,0.5m,0.1m --spacing 0.05m --lattice grid -l water -l aluminium -o t.h5
+  [ "$(field t.h5 MaterialID | sort | uniq -c | awk '{ printf "%s ", $1 }')" = '200 88 ' ]
+  mkshape --shape box --size 1m,1m,1m --spacing 0.25m --lattice grid -l water -o c.h5
+  [ "$(field c.h5 Masses | wc -l)" = 64 ]
 }

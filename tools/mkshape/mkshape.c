@@ -22,10 +22,10 @@ enum { BOULDERS = 1024 }; /* as many bodies as programs tell apart */
 
 static struct {
   long n, dimension, rotate, seed;
-  double energy, neighbours, spin, scale, fill;
+  double energy, neighbours, spin, scale, fill, spacing;
   const char *shape, *size, *mesh, *lattice, *rubble, *out;
   OptList layers;
-} o = {.neighbours = NAN, .spin = NAN, .rotate = -1};
+} o = {.neighbours = NAN, .spin = NAN, .spacing = NAN, .rotate = -1};
 
 /* clang-format off */
 static const Opt OPTS[] = {
@@ -34,16 +34,17 @@ static const Opt OPTS[] = {
   {"mesh",       0,   OPT_TEXT,   NULL,    "FILE",      "closed surface for --shape mesh, STL or OBJ", &o.mesh},
   {"scale",      0,   OPT_REAL,   "1",     "m",         "a unit of that file", &o.scale},
   {"number",     'n', OPT_INT,    "20000", "N",         "particles wanted, about", &o.n},
-  {"layer",      'l', OPT_LIST,   NULL,    "MATERIAL[:THICKNESS][:pores=P]", "from the top; tank: content, walls", &o.layers},
+  {"spacing",    0,   OPT_REAL,   NULL,    "m",         "instead of it: of the lattice", &o.spacing},
+  {"layer",      'l', OPT_LIST,   NULL,    "MATERIAL[:THICKNESS][:pores=P][:rho=DENSITY]", "from the top; tank: content, walls", &o.layers},
   {"rubble",     0,   OPT_TEXT,   NULL,    "MIN:MAX[:SLOPE]", "boulders of these radii, N(>r) ~ r^-SLOPE (2.5)", &o.rubble},
   {"fill",       0,   OPT_REAL,   "0.5",   "1",         "volume of the boulders that is tried for, over that of the shape", &o.fill},
   {"seed",       0,   OPT_INT,    "1",     "SEED",      "of the boulders", &o.seed},
-  {"lattice",    0,   OPT_CHOICE, "hcp",   "hcp|cubic", "close packing (2D: hexagonal) or cubic", &o.lattice},
-  {"neighbours", 0,   OPT_REAL,   NULL,    "1",         "in the kernel's support, itself included (57; 2D: 19)", &o.neighbours},
+  {"lattice",    0,   OPT_CHOICE, "hcp",   "hcp|cubic|grid", "close packing (2D: hexagonal), cubic about the centre, or cells that tile the box around the shape, for periodic edges", &o.lattice},
+  {"neighbours", 0,   OPT_REAL,   NULL,    "1",         "in the kernel's support, itself included (57; 2D: 19; 1D: 6)", &o.neighbours},
   {"rotate",     0,   OPT_INT,    NULL,    "SEED",      "turn the lattice at random by this seed", &o.rotate},
   {"spin",       0,   OPT_REAL,   NULL,    "s",         "period of rotation about z; negative: clockwise", &o.spin},
-  {"energy",     'u', OPT_REAL,   "0",     "J/kg",      "specific internal energy; the pressure is zero", &o.energy},
-  {"dimension",  'd', OPT_INT,    "3",     "2|3",       "plane or space", &o.dimension},
+  {"energy",     'u', OPT_REAL,   "0",     "J/kg",      "specific internal energy; without rho= the pressure is zero", &o.energy},
+  {"dimension",  'd', OPT_INT,    "3",     "1|2|3",     "line, plane or space", &o.dimension},
   {"output",     'o', OPT_TEXT,   "-",     "FILE",      "where the body goes", &o.out},
   {NULL, 0, OPT_FLAG, NULL, NULL, NULL, NULL}};
 
@@ -104,7 +105,7 @@ static void read_layer(Layer *l, Shape *s, int k)
 {
   char *copy = strdup(o.layers.text[k]), *rest, *word;
   int last = k == o.layers.n - 1, thick = 0;
-  double pores = 0, above = k ? s->end[k - 1] : 0;
+  double pores = 0, rho = 0, above = k ? s->end[k - 1] : 0;
   Material m;
   Err err;
   if (!copy) err_die("out of memory");
@@ -112,29 +113,42 @@ static void read_layer(Layer *l, Shape *s, int k)
   if (!word) err_usage("a layer needs a material");
   if (!(l->text = material_find(word, l->name, &err))) err_die("%s", err.text);
   if (material_parse(&m, l->text, l->name, &err)) err_die("%s", err.text);
-  if (structure_density(&m.eos, o.energy, &l->rho, &err))
-    err_die("layer '%s': %s", l->name, err.text);
   pores = 1 - 1 / material_distention(&m);
-  material_clear(&m);
   while ((word = strtok_r(NULL, ":", &rest))) {
-    int bad = strncmp(word, "pores=", 6) ? unit_parse(word, "m", &s->end[k], &err)
-                                         : unit_parse(word + 6, "1", &pores, &err);
+    int dense = !strncmp(word, "rho=", 4), open = !strncmp(word, "pores=", 6);
+    int bad = dense  ? unit_parse(word + 4, "kg/m^3", &rho, &err)
+              : open ? unit_parse(word + 6, "1", &pores, &err)
+                     : unit_parse(word, "m", &s->end[k], &err);
     if (bad) err_usage("layer '%s': %s", o.layers.text[k], err.text);
-    if (strncmp(word, "pores=", 6)) thick = 1, s->end[k] += above;
+    if (dense && !(rho > 0)) err_usage("layer '%s': density is not positive", o.layers.text[k]);
+    if (!dense && !open) thick = 1, s->end[k] += above;
   }
+  if (rho > 0)
+    l->rho = rho;
+  else if (structure_density(&m.eos, o.energy, &l->rho, &err))
+    err_die("layer '%s': %s", l->name, err.text);
+  material_clear(&m);
   if (!(pores >= 0 && pores < 1)) err_usage("layer '%s': pores are 0 to 1", o.layers.text[k]);
   if (thick && (last || !shape_layered(s->kind)))
     err_usage("layer '%s': no thickness, it takes what is left", o.layers.text[k]);
   if (!thick && !last && shape_layered(s->kind))
     err_usage("layer '%s' needs a thickness", o.layers.text[k]);
-  l->distention = 1 / (1 - pores), l->rho /= l->distention;
+  l->distention = 1 / (1 - pores);
+  if (rho == 0) l->rho /= l->distention;
   free(copy);
 }
 
 static void check_options(void)
 {
   int mesh = !strcmp(o.shape, "mesh");
-  if (o.dimension < 2 || o.dimension > 3) err_usage("dimension %ld is not 2 or 3", o.dimension);
+  if (o.dimension < 1 || o.dimension > 3) err_usage("dimension %ld is not 1, 2 or 3", o.dimension);
+  if (opt_given(&PROGRAM, "spacing") && opt_given(&PROGRAM, "number"))
+    err_usage("either --number or --spacing");
+  if (opt_given(&PROGRAM, "spacing") && !(o.spacing > 0))
+    err_usage("spacing %g m is not positive", o.spacing);
+  if (o.rubble && (!isnan(o.spacing) || !strcmp(o.lattice, "grid")))
+    err_usage("boulders take --number and a lattice of their own, hcp or cubic");
+  if (!strcmp(o.lattice, "grid") && o.rotate >= 0) err_usage("a grid is not turned");
   if (o.n < 1 || o.n > 2000000000) err_usage("number of particles %ld is not in 1..2e9", o.n);
   if (!isnan(o.neighbours) && o.neighbours <= 1) err_usage("--neighbours must be greater than 1");
   if (o.energy < 0) err_usage("energy %g J/kg is negative", o.energy);
@@ -144,13 +158,16 @@ static void check_options(void)
   if (mesh != !!o.mesh)
     err_usage(mesh ? "--shape mesh needs --mesh FILE" : "--mesh needs --shape mesh");
   if (!(o.scale > 0)) err_usage("scale %g m is not positive", o.scale);
-  if (mesh && o.dimension == 2) err_usage("no mesh in 2D");
+  if (mesh && o.dimension < 3) err_usage("no mesh in %ldD", o.dimension);
   if (!(o.fill > 0 && o.fill < 0.74)) err_usage("--fill %g is not between 0 and 0.74", o.fill);
-  if (o.rubble && o.dimension == 2) err_usage("rubble needs 3 dimensions");
+  if (o.rubble && o.dimension < 3) err_usage("rubble needs 3 dimensions");
   if (o.rubble && o.layers.n > 1) err_usage("rubble is of one material");
   if (!o.layers.n) err_usage("which material? give --layer MATERIAL");
   if (o.layers.n > SHAPE_PARTS) err_usage("more than %d layers", SHAPE_PARTS);
 }
+
+/* The lattice as far as its volume a site goes. */
+static Lattice lattice_of(void) { return strcmp(o.lattice, "hcp") ? LATTICE_CUBIC : LATTICE_HCP; }
 
 static void set_turn(double m[3][3], long seed)
 {
@@ -181,6 +198,28 @@ static void take(void *to, const double at[3])
   }
   memcpy(f->x + 3 * f->n, x, sizeof x);
   f->part[f->n] = part, f->body[f->n++] = (int)f->number;
+}
+
+/* Cells of about the spacing, whole ones along each edge of the box around the shape; a tank's walls
+ * go on with them. */
+static void fill_grid(Fill *f)
+{
+  double low[3], high[3], cell[3] = {0}, at[3];
+  long from[3] = {0}, to[3] = {1, 1, 1};
+  shape_box(f->shape, low, high);
+  for (int d = 0; d < f->shape->dimension; d++) {
+    double edge = high[d] - low[d], most = fmax(1, round(edge / f->spacing)), wall = 0;
+    cell[d] = edge / most;
+    if (f->shape->kind == SHAPE_TANK) wall = ceil(f->shape->size[f->shape->dimension] / cell[d]);
+    from[d] = -(long)wall, to[d] = (long)(most + wall);
+  }
+  for (long k = from[2]; k < to[2]; k++)
+    for (long j = from[1]; j < to[1]; j++)
+      for (long i = from[0]; i < to[0]; i++) {
+        const double n[3] = {(double)i + 0.5, (double)j + 0.5, (double)k + 0.5};
+        for (int d = 0; d < 3; d++) at[d] = (low[d] + n[d] * cell[d]) / f->spacing;
+        take(f, at);
+      }
 }
 
 static PackOptions read_rubble(void)
@@ -246,10 +285,8 @@ static Parts *particles(const Fill *f, const Shape *s, Layer *layer, const doubl
     memcpy(p->x + 3 * i, f->x + 3 * i, 3 * sizeof *p->x);
     p->id[i] = i, p->mat[i] = l->mat, p->body[i] = boulders ? f->body[i] : 0;
     p->m[i] = l->rho * volume / (double)number[k], p->rho[i] = l->rho, p->u[i] = o.energy;
-    p->h[i] = recipe_radius(
-        p->dimension, o.neighbours * pow(f->spacing, p->dimension) *
-                          lattice_volume(!strcmp(o.lattice, "cubic") ? LATTICE_CUBIC : LATTICE_HCP,
-                                         p->dimension));
+    p->h[i] = recipe_radius(p->dimension, o.neighbours * pow(f->spacing, p->dimension) *
+                                              lattice_volume(lattice_of(), p->dimension));
   }
   free(number);
   return p;
@@ -276,6 +313,8 @@ static void spin(Parts *p)
 
 int main(int argc, char **argv)
 {
+  static const char *const MASS[] = {"", "kg/m^2", "kg/m", "kg"}, *const VOLUME[] = {"", "m", "m^2",
+                                                                                     "m^3"};
   static Layer layer[SHAPE_PARTS];
   Shape s = {0};
   Fill f = {.shape = &s};
@@ -294,16 +333,21 @@ int main(int argc, char **argv)
   read_sizes(&s);
   if (o.mesh && mesh_read(&mesh, o.mesh, o.scale, &err)) err_die("%s", err.text);
   if (o.mesh) s.mesh = &mesh;
-  if (isnan(o.neighbours)) o.neighbours = o.dimension == 3 ? 57 : 19;
-  lattice = !strcmp(o.lattice, "cubic") ? LATTICE_CUBIC : LATTICE_HCP;
+  if (isnan(o.neighbours)) o.neighbours = o.dimension == 3 ? 57 : o.dimension == 2 ? 19 : 6;
+  lattice = lattice_of();
   if (o.rubble) {
     boulders = fill_rubble(&f, lattice, &r, &volume);
   } else {
     for (int k = 0; k < s.parts; k++) volume += shape_volume(&s, k);
     f.spacing = pow(volume / (double)o.n / lattice_volume(lattice, s.dimension), 1. / s.dimension);
+    if (!isnan(o.spacing)) f.spacing = o.spacing;
     set_turn(f.turn, o.rotate);
-    reach = shape_ball(&s, f.centre);
-    lattice_sites(lattice, s.dimension, reach / f.spacing + 1, take, &f);
+    if (strcmp(o.lattice, "grid")) {
+      reach = shape_ball(&s, f.centre);
+      lattice_sites(lattice, s.dimension, reach / f.spacing + 1, take, &f);
+    } else {
+      fill_grid(&f);
+    }
   }
   if (!f.n) err_die("the shape holds no particle: more are needed (-n)");
   p = particles(&f, &s, layer, r, boulders);
@@ -315,7 +359,7 @@ int main(int argc, char **argv)
       snap_write(p, o.out, 0, &err))
     err_die("%s", err.text);
   fprintf(stderr, "mkshape: %ld particles, mass %.6g %s, volume %.6g %s, spacing %s\n", p->n, mass,
-          s.dimension == 3 ? "kg" : "kg/m", volume, s.dimension == 3 ? "m^3" : "m^2",
+          MASS[s.dimension], volume, VOLUME[s.dimension],
           unit_length_text(f.spacing, step, sizeof step));
   if (boulders)
     fprintf(stderr, "mkshape: %ld boulders, %.3f of the shape\n", boulders,
