@@ -9,7 +9,7 @@
 #include <string.h>
 #include "unit.h"
 
-enum { BASES = 5, LONGEST = 64 };
+enum { BASES = UNIT_BASES, LONGEST = 64 };
 
 #define PI 3.14159265358979323846264338327950288L
 
@@ -214,6 +214,15 @@ int unit_parse(const char *text, const char *kind, double *si, Err *err)
   number = (double)(number * unit.factor / want.factor);
   if (!isfinite(number)) return err_set(err, "'%s' is too large", text);
   *si = number;
+  return 0;
+}
+
+int unit_powers(const char *unit, double *si, int power[UNIT_BASES], Err *err)
+{
+  Unit u;
+  if (parse_unit(strcmp(unit, "1") ? unit : "", &u, err)) return -1;
+  *si = (double)u.factor;
+  memcpy(power, u.power, sizeof u.power);
   return 0;
 }
 

@@ -16,6 +16,11 @@
  * products are understood. Returns 0 or -1. */
 int unit_parse(const char *text, const char *kind, double *si, Err *err);
 
+/* unit_powers: factor to SI and the powers of m, kg, s, K, rad of a unit; "1" and "" have none.
+ * Returns 0, or -1 when it is none. */
+enum { UNIT_BASES = 5 };
+int unit_powers(const char *unit, double *factor, int power[UNIT_BASES], Err *err);
+
 /* unit_list: "X,Y,Z": n quantities of one kind, separated by commas. Returns 0 or -1. */
 int unit_list(const char *text, const char *kind, int n, double *si, Err *err);
 
