@@ -35,12 +35,12 @@ Expr *expr_parse(const char *text, Err *err);
 void expr_free(Expr *e);
 
 /* expr_members: appends the members of the schema that it needs to `members` (separated by blanks,
- * as snap_read_some has them) where they are not in it yet. Returns 1 when it also needs fields that
- * the schema does not know, 0 when not, -1 when they do not fit. */
+ * as snap_read_some has them) where they are not in it yet. Returns 1 when it also needs fields
+ * that the schema does not know, 0 when not, -1 when they do not fit. */
 int expr_members(const Expr *e, char *members, int size);
 
-/* expr_bind: looks its names up in p, which must stay until it is bound to something else; file: for
- * messages. Errors: those of column_get, no such function or material, units that do not go
+/* expr_bind: looks its names up in p, which must stay until it is bound to something else; file:
+ * for messages. Errors: those of column_get, no such function or material, units that do not go
  * together. */
 int expr_bind(Expr *e, const Parts *p, const char *file, Err *err);
 

@@ -35,11 +35,11 @@ static const Opt OPTS[] = {
   {"scale",      0,   OPT_REAL,   "1",     "m",         "a unit of that file", &o.scale},
   {"number",     'n', OPT_INT,    "20000", "N",         "particles wanted, about", &o.n},
   {"spacing",    0,   OPT_REAL,   NULL,    "m",         "instead of it: of the lattice", &o.spacing},
-  {"layer",      'l', OPT_LIST,   NULL,    "MATERIAL[:THICKNESS][:pores=P][:rho=DENSITY]", "from the top; tank: content, walls", &o.layers},
+  {"layer",      'l', OPT_LIST,   NULL,    "MATERIAL[:THICKNESS][:pores=P][:rho=R]", "from the top; tank: content, walls", &o.layers},
   {"rubble",     0,   OPT_TEXT,   NULL,    "MIN:MAX[:SLOPE]", "boulders of these radii, N(>r) ~ r^-SLOPE (2.5)", &o.rubble},
   {"fill",       0,   OPT_REAL,   "0.5",   "1",         "volume of the boulders that is tried for, over that of the shape", &o.fill},
   {"seed",       0,   OPT_INT,    "1",     "SEED",      "of the boulders", &o.seed},
-  {"lattice",    0,   OPT_CHOICE, "hcp",   "hcp|cubic|grid", "close packing (2D: hexagonal), cubic about the centre, or cells that tile the box around the shape, for periodic edges", &o.lattice},
+  {"lattice",    0,   OPT_CHOICE, "hcp",   "hcp|cubic|grid", "close packing, cubic, or cells that tile the box around it", &o.lattice},
   {"neighbours", 0,   OPT_REAL,   NULL,    "1",         "in the kernel's support, itself included (57; 2D: 19; 1D: 6)", &o.neighbours},
   {"rotate",     0,   OPT_INT,    NULL,    "SEED",      "turn the lattice at random by this seed", &o.rotate},
   {"spin",       0,   OPT_REAL,   NULL,    "s",         "period of rotation about z; negative: clockwise", &o.spin},
@@ -200,8 +200,8 @@ static void take(void *to, const double at[3])
   f->part[f->n] = part, f->body[f->n++] = (int)f->number;
 }
 
-/* Cells of about the spacing, whole ones along each edge of the box around the shape; a tank's walls
- * go on with them. */
+/* Cells of about the spacing, whole ones along each edge of the box around the shape; a tank's
+ * walls go on with them. */
 static void fill_grid(Fill *f)
 {
   double low[3], high[3], cell[3] = {0}, at[3];
