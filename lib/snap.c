@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The layout of a snapshot, written and read side by side: /Header, /Units, /Materials, /History,
- * /Parameters, /Collision, /Body, /PartType0, and the view Step#0. Inner functions say what is
+ * /Parameters, /Collision, /Body, /PointMasses, /PartType0, and the view Step#0. Inner functions
+ * say what is
  * wrong; snap_read and snap_write put the file's name before it. */
 #include <errno.h>
 #include <math.h>
@@ -10,6 +11,7 @@
 #include <unistd.h>
 
 #include "hdf.h"
+#include "pointmass.h"
 #include "snap.h"
 #include "spool.h"
 #include "view.h"
@@ -162,7 +164,8 @@ static int put_all(Writer *w, const Parts *p, int checkpoint)
                  hdf_put_strings(w->file, "Parameters", p->parameter, p->parameters, w->err) ||
                  put_numbers(w, "Collision", p->collision, p->collisions) ||
                  put_numbers(w, "Body", p->body_info, p->body_infos) ||
-                 put_numbers(w, "Run", p->run, p->runs) || put_particles(w, p, checkpoint)
+                 put_numbers(w, "Run", p->run, p->runs) || pointmass_put(w->file, p, w->err) ||
+                 put_particles(w, p, checkpoint)
              ? -1
              : 0;
 }
@@ -457,7 +460,7 @@ static int get_all(hid_t file, Parts *p, const char *members, Err *err)
          hdf_get_strings(file, "Parameters", &p->parameter, &p->parameters, err) ||
          get_numbers(file, "Collision", p, "collision", err) ||
          get_numbers(file, "Body", p, "body", err) || get_numbers(file, "Run", p, "run", err) ||
-         get_particles(file, p, members, err);
+         pointmass_get(file, p, err) || get_particles(file, p, members, err);
 }
 
 Parts *snap_read(const char *path, Err *err) { return snap_read_some(path, NULL, err); }

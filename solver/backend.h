@@ -5,17 +5,18 @@
 #ifndef BACKEND_H
 #define BACKEND_H
 
-#include "passes.h"
 #include "param.h"
+#include "passes.h"
+#include "points.h"
 
 /* Sums over all particles in a fixed order, independent of threads. SI; energies in J. */
-typedef struct {
+struct Sums {
   double mass, kinetic, internal, potential;
   double momentum[3], angular[3], centre[3]; /* kg m/s, kg m^2/s, m */
   double scale_momentum, scale_angular; /* sum m |v|, sum m |r x v|: what drifts are measured by */
   double
       outside[3]; /* particles outside their table: in density, above it and below it in energy */
-} Sums;
+};
 
 /* The smallest of each time-step criterion, the particle that has it, and the first particle in a
  * bad state. */
@@ -44,8 +45,6 @@ enum {
   TIMERS
 };
 
-typedef struct Sim Sim;
-
 struct backend {
   const char *name;
   /* cards: how many devices there are for it; -1: this build lacks the backend. */
@@ -61,15 +60,18 @@ struct backend {
   int (*copy)(Sim *sim, void *to, const void *from, size_t bytes, Err *err);
   /* search: orders the particles, builds the tree at x and the neighbour lists for x and for y. */
   int (*search)(Sim *sim, Err *err);
-  /* pass: one of passes.h over all particles. */
+  /* pass: one of passes.h over all particles, and points_pass. */
   void (*pass)(Sim *sim, int pass, const Step *step);
   /* gradient: loop A at y with v, ha and volumes m/rhoa: divv and (solids) g, cm. density: kernel
    * sums at x: rho, delta, and rhoa, the mean of rho before and after. force: loop B at x with
-   * vp: acc, du, signal, nngb. gravity: when it is due sets pull and phi; adds pull to acc. */
+   * vp: acc, du, signal, nngb. gravity: when it is due sets pull and phi; adds pull to acc; then
+   * points_exchange. */
   void (*gradient)(Sim *sim);
   void (*density)(Sim *sim);
   void (*force)(Sim *sim);
   int (*gravity)(Sim *sim, Err *err);
+  /* points: adds the pull of these masses at x to acc; reaction [field->n]: what each does. */
+  int (*points)(Sim *sim, const PointField *field, PointReaction *reaction, Err *err);
   /* Reductions (reduce.h). bodies: centre, velocity and spin of each body id below BODIES, for
    * damping. error: the largest of rk2-adaptive for a tolerance of 1. Failures of steps that return
    * nothing are reported here, by search, gravity or store. */
@@ -105,6 +107,7 @@ struct Sim {
    * the next, as planned, and so far; the length of these and for how long it has kicked [s] */
   int pull_due, outer_steps, outer;
   double outer_time, outer_kick;
+  PointMasses points;
   int slots, memory; /* of the integrator: saved states, rates of the step before */
   double dt_before;  /* length of the last step [s]; 0: there is none */
   BackendTimer timer[TIMERS];

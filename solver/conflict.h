@@ -21,11 +21,12 @@
 #define UNUSED_SETTINGS(U) \
   U("density_floor", p->density != PARAM_CONTINUITY && p->density_floor <= 1, "density") \
   U("gravity.theta", p->gravity != PARAM_TREE, "gravity.method") \
-  U("gravity.G", p->gravity == PARAM_NONE, "gravity.method") \
+  U("gravity.G", p->gravity == PARAM_NONE && !s->points.n, "gravity.method") \
   U("gravity.every", p->gravity == PARAM_NONE, "gravity.method") \
   U("smoothing.neighbours", p->smoothing != PARAM_NEIGHBOURS, "smoothing.mode") \
   U("smoothing.min", p->smoothing == PARAM_FIXED, "smoothing.mode") \
   U("smoothing.max", p->smoothing == PARAM_FIXED, "smoothing.mode") \
+  U("step.points", s->points.n < 2, "there are no two point masses") \
   U("step.error", integrator_of(p->integrator) != &integrator_rk2_adaptive, "integrator") \
   U("damping.radial", !(p->damping > 0), "damping.rate") \
   U("analysis.method", !(p->analysis_every > 0), "analysis.every") \

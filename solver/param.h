@@ -14,6 +14,8 @@ enum { PARAM_NONE, PARAM_TREE, PARAM_DIRECT };
 enum { PARAM_FULL, PARAM_ISENTROPIC, PARAM_FROZEN };
 enum { PARAM_MIXED, PARAM_DOUBLE };
 
+enum { PARAM_POINTS = 32 };
+
 typedef struct {
   int integrator, kernel, precision, density, energy, strength, damage;
   double energy_floor, density_floor, outer_pressure;
@@ -26,7 +28,7 @@ typedef struct {
   int deposit_profile, deposit_axis;
   int smoothing;
   double neighbours, h_min, h_max;
-  double cfl, step_acceleration, step_density, step_error, step_min, step_max;
+  double cfl, step_acceleration, step_density, step_error, step_min, step_max, step_points;
   double damping;
   int damping_radial;
   int log_every;
@@ -34,6 +36,8 @@ typedef struct {
   double analysis_every, analysis_link, analysis_theta, analysis_virial, analysis_converged,
       analysis_after;
   int analysis_method, analysis_criterion, analysis_least, analysis_window;
+  PointMass point[PARAM_POINTS]; /* [points] */
+  int points;
 } Param;
 
 /* param_defaults: all settings at their defaults. */

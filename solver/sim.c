@@ -86,7 +86,7 @@ static int open_common(Sim *sim, const Param *par, const Parts *p, const char *d
   sim->viscous = par->shear > 0 || par->bulk > 0 || par->shakura > 0 || par->compression > 0;
   sim->tensor = sim->solid || sim->viscous;
   sim->s.dimension = p->dimension;
-  return conflict_check(par, sim, err);
+  return points_open(sim, p, err) || conflict_check(par, sim, err) ? -1 : 0;
 }
 
 /* A porous particle without Distention must have the density of its bulk. */
@@ -129,6 +129,10 @@ static int hand_over(Sim *sim, const Parts *p, Err *err)
 
 int sim_open(Sim *sim, const Param *par, const Parts *p, const char *device, Err *err)
 {
+  memset(sim, 0, sizeof *sim);
+  if (p->points && par->points)
+    return err_set(err, "the input has %d point mass(es) already, and the settings list %d",
+                   p->points, par->points);
   if (open_common(sim, par, p, device, err)) return sim_close(sim), -1;
   smoothing_range(sim, p);
   if (hand_over(sim, p, err) || integrator_of(sim->par.integrator)->start(sim, err))
@@ -191,8 +195,8 @@ const char *sim_limit_name(int limit)
       LIMIT_NAMES(SIM_LIMIT)
 #undef SIM_LIMIT
           "output",
-      "error", "max"};
-  return limit >= 0 && limit < LIMITS + 3 ? names[limit] : "?";
+      "error", "max", "points"};
+  return limit >= 0 && limit < LIMITS + 4 ? names[limit] : "?";
 }
 
 /* What a file of the solver holds. */
@@ -219,6 +223,8 @@ static int next_limits(Sim *sim, SimStep *next, Err *err)
   next->dt = INFINITY, next->limit = LIMITS + 2, next->id = -1;
   for (int c = 0; c < LIMITS; c++)
     if (l.dt[c] < next->dt) next->dt = l.dt[c], next->limit = c, next->id = l.id[c];
+  if (points_limit(sim) < next->dt)
+    next->dt = points_limit(sim), next->limit = LIMITS + 3, next->id = -1;
   return 0;
 }
 
@@ -267,7 +273,9 @@ int sim_advance(Sim *sim, double until, SimStep *done, Err *err)
 int sim_sums(Sim *sim, Sums *out, Err *err)
 {
   const struct integrator *in = integrator_of(sim->par.integrator);
-  return (in->potential && in->potential(sim, err)) || sim->b->sums(sim, out, err) ? -1 : 0;
+  if ((in->potential && in->potential(sim, err)) || sim->b->sums(sim, out, err)) return -1;
+  points_sums(sim, out);
+  return 0;
 }
 
 int sim_send(Sim *sim, Parts *p, Err *err)
@@ -278,7 +286,7 @@ int sim_send(Sim *sim, Parts *p, Err *err)
       (sim->porous && part_add(p, "alpha", err)) || (sim->heated && part_add(p, "T", err)) ||
       (sim->memory &&
        (part_add(p, memory, err) || part_set_number(p, "run", "LastStep", sim->dt_before, err))) ||
-      sim->b->store(sim, p, err))
+      points_store(sim, p, err) || sim->b->store(sim, p, err))
     return -1;
   p->time = sim->time;
   if (sim->par.gravity_every > 1 &&

@@ -219,11 +219,13 @@ static int pull(Sim *sim, Err *err)
 static int cpu_gravity(Sim *sim, Err *err)
 {
   const State *s = &sim->s;
+  const int pulls = sim->par.gravity != PARAM_NONE;
   int bad;
-  if (sim->par.gravity == PARAM_NONE) return 0;
+  if (!pulls && !sim->points.n) return 0;
   backend_begin(sim, TIMER_GRAVITY);
-  bad = sim->pull_due && pull(sim, err);
-  for (long i = 0; i < 3 * s->n && !bad; i++) s->acc[i] += s->pull[i];
+  bad = pulls && sim->pull_due && pull(sim, err);
+  for (long i = 0; i < 3 * s->n && pulls && !bad; i++) s->acc[i] += s->pull[i];
+  bad = bad || points_exchange(sim, err);
   backend_end(sim, TIMER_GRAVITY);
   return bad ? -1 : 0;
 }
@@ -232,6 +234,7 @@ static int cpu_gravity(Sim *sim, Err *err)
 static void cpu_pass(Sim *sim, int pass, const Step *step)
 {
   const State *s = &sim->s;
+  points_pass(sim, pass, step);
   backend_begin(sim, TIMER_LOCAL);
   switch (pass) {
 #define CPU_PASS(CAPITAL, NAME)                                                                    \
@@ -265,5 +268,5 @@ static int cpu_cards(void) { return 1; }
 /* clang-format off */
 const struct backend backend_cpu = {
   "cpu", cpu_cards, cpu_open, cpu_close, cpu_store, cpu_fetch, cpu_copy, cpu_search, cpu_pass,
-  cpu_gradient, cpu_density, cpu_force, cpu_gravity, cpu_limits, cpu_sums, cpu_bodies, cpu_error};
+  cpu_gradient, cpu_density, cpu_force, cpu_gravity, cpu_points, cpu_limits, cpu_sums, cpu_bodies, cpu_error};
 /* clang-format on */

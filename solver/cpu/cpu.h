@@ -24,6 +24,7 @@ typedef struct {
 void cpu_gradient(Sim *sim);
 void cpu_force(Sim *sim);
 void cpu_density(Sim *sim);
+int cpu_points(Sim *sim, const PointField *field, PointReaction *reaction, Err *err);
 int cpu_limits(Sim *sim, const Step *step, Limits *out, Err *err);
 int cpu_sums(Sim *sim, Sums *out, Err *err);
 int cpu_bodies(Sim *sim, Step *step, Err *err);

@@ -28,6 +28,7 @@ static void cuda_pass(Sim *sim, int pass, const Step *step)
   Cuda *c = cuda_of(sim);
   CudaError *error = &c->error;
   const unsigned block = 128, grid = launch_blocks((size_t)sim->s.n, block);
+  points_pass(sim, pass, step);
   cuda_begin(sim, TIMER_LOCAL);
   switch (pass + (pass >= PASS_EOS_FIRST && !sim->rare ? PASS_COUNT : 0)) {
 #define CUDA_PASS(CAPITAL, NAME)                                                                   \
@@ -148,10 +149,19 @@ static void timed_force(Sim *sim) { cuda_begin(sim, TIMER_B), cuda_force(sim), c
 
 static int timed_gravity(Sim *sim, Err *err)
 {
-  int bad;
-  if (sim->par.gravity == PARAM_NONE) return 0;
-  cuda_begin(sim, TIMER_GRAVITY), bad = cuda_gravity(sim, err), cuda_end(sim);
-  return bad;
+  int bad = 0;
+  if (sim->par.gravity == PARAM_NONE && !sim->points.n) return 0;
+  cuda_begin(sim, TIMER_GRAVITY);
+  if (sim->par.gravity != PARAM_NONE) bad = cuda_gravity(sim, err);
+  bad = bad || points_exchange(sim, err);
+  cuda_end(sim);
+  return bad ? -1 : 0;
+}
+
+static int pull_and_reaction(Sim *sim, const PointField *field, PointReaction *reaction, Err *err)
+{
+  cuda_points(sim, field);
+  return cuda_reaction(sim, field, reaction, err);
 }
 
 static int timed_limits(Sim *sim, const Step *step, Limits *out, Err *err)
@@ -165,5 +175,5 @@ static int timed_limits(Sim *sim, const Step *step, Limits *out, Err *err)
 /* clang-format off */
 extern "C" const struct backend backend_cuda = {
   "cuda", cuda_cards, cuda_open, cuda_close, cuda_store, cuda_fetch, cuda_copy, cuda_search, cuda_pass,
-  timed_gradient, timed_density, timed_force, timed_gravity, timed_limits, cuda_sums, cuda_bodies, cuda_error};
+  timed_gradient, timed_density, timed_force, timed_gravity, pull_and_reaction, timed_limits, cuda_sums, cuda_bodies, cuda_error};
 /* clang-format on */

@@ -158,12 +158,14 @@ void cuda_loops_close(Sim *sim);
 size_t cuda_gravity_bytes(const Sim *sim);
 int cuda_gravity_open(Sim *sim, Err *err);
 int cuda_gravity(Sim *sim, Err *err); /* tree or direct: pull and phi, added to acc */
+void cuda_points(Sim *sim, const PointField *field); /* their pull, added to acc */
 void cuda_gravity_close(Sim *sim);
 size_t cuda_reduce_bytes(void);
 int cuda_reduce_open(Sim *sim, Err *err);
 int cuda_limits(Sim *sim, const Step *step, Limits *out, Err *err);
 int cuda_sums(Sim *sim, Sums *out, Err *err);
 int cuda_bodies(Sim *sim, Step *step, Err *err);
+int cuda_reaction(Sim *sim, const PointField *field, PointReaction *reaction, Err *err);
 int cuda_error(Sim *sim, const Step *step, double *worst, Err *err);
 void cuda_reduce_close(Sim *sim);
 

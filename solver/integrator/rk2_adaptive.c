@@ -13,7 +13,7 @@ static int trial(Sim *sim, double dt, double *error, Err *err)
   Step k = sim_step(sim, dt);
   if (integrator_stages(sim, &k, STAGES, 3, err)) return -1;
   if (sim->b->error(sim, &k, error, err)) return -1;
-  *error /= sim->par.step_error;
+  *error = fmax(*error, points_error(sim, dt)) / sim->par.step_error;
   return 0;
 }
 
