@@ -11,8 +11,8 @@
 #define PI 3.14159265358979323846f
 enum { ROWS = 32, LAYERS = 4, SEGMENT = 256 };
 
-/* Wendland C2 and its integral along a line at distance q, 2 int W(sqrt(q^2+s^2)) ds: fit of (1-q)^4.5
- * times a cubic, with integral 1. */
+/* Wendland C2 and its integral along a line at distance q, 2 int W(sqrt(q^2+s^2)) ds: fit of
+ * (1-q)^4.5 times a cubic, with integral 1. */
 static inline float shape_of(DepositShape shape, float q)
 {
   float p = 1 - q, p2, w;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Particles spread with their kernels over the cells of a regular grid: slices, projections,
  * volumes. A cell gets sum_j a_j W(r_j, h_j) at its centre, and the same times each value; what the
- * amounts a_j are (volume to interpolate, mass to keep mass) is the caller's. The kernel is Wendland
- * C2. Deterministic for any number of threads. */
+ * amounts a_j are (volume to interpolate, mass to keep mass) is the caller's. The kernel is
+ * Wendland C2. Deterministic for any number of threads. */
 #ifndef DEPOSIT_H
 #define DEPOSIT_H
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The quantity that is shown: one number a particle, from an expression of the snapshot's fields. */
+/* The quantity that is shown: one number a particle, from an expression of the snapshot's fields.
+ */
 #ifndef FIELD_H
 #define FIELD_H
 
