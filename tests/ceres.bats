@@ -44,7 +44,7 @@ MOCK
   done
 }
 
-study() { make -s -f pipelines/ceres.mk BIN="$mock" N=100 OUT="$OUT" "$@"; }
+study() { make -s -f pipelines/ceres.mk BIN="$mock" N=100 OUT="$OUT" LIBRARY="$OUT/bodies" "$@"; }
 # The programs called since the last look, each once, in the order of the alphabet.
 called() { [ ! -f "$CALLS" ] || cut -d' ' -f1 "$CALLS" | sort -u | tr '\n' ' '; rm -f "$CALLS"; }
 expect() { [ "$1" = "$2" ] || { echo "expected '$1', got '$2'"; return 1; }; }
@@ -65,7 +65,7 @@ analysis='clumps conserved fof histo render '
   study && called
   study LEAST=9 && expect 'fof histo render ' "$(called)"
   study LEAST=9 EVERY=10 && expect "${analysis}solver " "$(called)"
-  study LEAST=9 EVERY=10 DISTANCE=9000 && expect "${analysis/fof/collide fof}solver " "$(called)"
+  study LEAST=9 EVERY=10 DISTANCE=9000 && expect "${analysis/conserved/collide conserved}solver " "$(called)"
   study LEAST=9 EVERY=10 DISTANCE=9000 ICE=ice_lange
   grep -c '^mksphere' "$CALLS" | grep -qx 1 # the body of basalt stays
 }
@@ -91,7 +91,7 @@ analysis='clumps conserved fof histo render '
 @test "a step that fails leaves no result and stops the study" {
   mock
   FAILING=relax run study
-  [ "$status" != 0 ] && [ ! -e "$OUT/N100-s1/target.h5" ]
+  [ "$status" != 0 ] && [ ! -e "$OUT/bodies/ceres-n61-s11.h5" ]
   called
   FAILING=fof run study
   [ "$status" != 0 ] && [ ! -e "$run_dir/fragments.tsv" ] && [ -e "$run_dir/run/end" ]
