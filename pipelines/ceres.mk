@@ -42,7 +42,7 @@ here := $(dir $(this))
 include $(here)common.mk
 include $(here)recipes.mk
 runs := $(foreach a,$(ANGLE),$(foreach v,$(SPEED),$(OUT)/N$(N)-s$(SEED)/a$a-v$v))
-pictures := cut.png damage.png end-1.png $(if $(shell command -v gnuplot),conserved.png spectrum.png)
+pictures := cut.png damage.png end-1.png $(if $(shell command -v gnuplot),conserved.png spectrum.png masses.png)
 analysis := dumps.tsv frames.txt before.tsv after.tsv fragments.h5 fragments.tsv clumps.tsv report.txt checked $(pictures) end-2.png
 
 all: $(foreach r,$(runs),$(addprefix $r/,$(pictures) checked))
@@ -117,6 +117,13 @@ $(runs:%=%/fragments.tsv): %/fragments.tsv: %/dumps.tsv
 # The cumulative mass spectrum at the end, without the largest fragment (001 fig. 8).
 %/spectrum.png: %/fragments.tsv
 	histo --skip 1 -o $@ -t '$(title)' $< > $*/spectrum.tsv
+
+# The largest bodies against time, and where in the two bodies the matter of the survivors was.
+$(call from,$(runs:%=%/masses.png),--min-particles $(LEAST))
+$(runs:%=%/masses.png): %/masses.png: %/dumps.tsv
+	cd $*/run; track $(vars) -c ../masses.tsv -m ../provenance.h5 -o ../origin.h5 -p ../masses.png --title '$(title)' \
+	  $$(cut -f 1 ../dumps.tsv) > ../objects.tsv
+	$(remember)
 
 # What came out, beside the paper's numbers, and what must hold. `checked` is there when it holds.
 report = geometry.tsv before.tsv after.tsv fragments.tsv clumps.tsv run/conserved.tsv
