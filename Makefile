@@ -165,6 +165,8 @@ install: all
 	install -m 755 $(programs:%=$(BIN)/%) $(DESTDIR)$(PREFIX)/bin
 	install -m 644 materials/*.cfg $(DESTDIR)$(PREFIX)/share/breccia/materials
 	install -m 644 pipelines/* $(DESTDIR)$(PREFIX)/share/breccia/pipelines
+	install -d $(DESTDIR)$(PREFIX)/share/breccia/python
+	install -m 644 python/breccia.py $(DESTDIR)$(PREFIX)/share/breccia/python
 	install -d $(DESTDIR)$(PREFIX)/share/man/man1
 	@for p in $(programs); do $(BIN)/$$p --man > $(DESTDIR)$(PREFIX)/share/man/man1/$$p.1 || exit 1; done
 
