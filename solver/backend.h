@@ -96,6 +96,7 @@ struct Sim {
   int porous;   /* any material with pores */
   int heated;   /* any material whose strength has a temperature of its own, and strength on */
   int miscible; /* the number-density form */
+  Bounds bounds;
   State s;
   void *own;       /* the backend's */
   int card;        /* which of the backend's devices */

@@ -14,7 +14,19 @@
     "only leapfrog kicks with gravity in steps of its own") \
   C("step.max", "step.min", p->step_max > 0 && p->step_max <= p->step_min, "no step is left between the two") \
   C("heating.profile", "heating.radius", p->deposit_profile && p->deposit_radius == 0, "it needs a radius") \
-  C("heating.begin", "heating.end", p->deposit_begin >= p->deposit_end, "no time is left between the two")
+  C("heating.begin", "heating.end", p->deposit_begin >= p->deposit_end, "no time is left between the two") \
+  CONFLICT_AXES(C)
+
+/* The same for each axis. */
+#define CONFLICT_AXES(C) CONFLICT_AXIS(C, "x", 0) CONFLICT_AXIS(C, "y", 1) CONFLICT_AXIS(C, "z", 2)
+#define CONFLICT_AXIS(C, X, D) \
+  C("boundary." X, "boundary.high", \
+    (p->faces[D] == PARAM_PERIODIC || p->faces[D] == PARAM_MIRROR) && !(p->high[D] > p->low[D]), \
+    "the upper face must be above the lower one") \
+  C("boundary." X, "a run of fewer dimensions", p->faces[D] != PARAM_OPEN && D >= s->s.dimension, \
+    "nothing moves along that axis") \
+  C("boundary." X, "gravity.method", p->faces[D] != PARAM_OPEN && p->gravity != PARAM_NONE, \
+    "images do not pull")
 
 /* U(key, condition, because): the key, when it is not at its default, has no effect on this run
  * because of `because`: a key, whose value is then said, or a reason in words. */
@@ -52,7 +64,9 @@
   U("heating.y", p->deposit_radius == 0, "heating.radius") \
   U("heating.z", p->deposit_radius == 0, "heating.radius") \
   U("heating.begin", p->deposit == 0, "heating.rate") \
-  U("heating.end", p->deposit == 0, "heating.rate")
+  U("heating.end", p->deposit == 0, "heating.rate") \
+  U("boundary.low", !s->bounds.on, "no axis of boundary has a face") \
+  U("boundary.high", !s->bounds.on, "no axis of boundary has a face")
 /* clang-format on */
 
 /* conflict_check: the first row of CONFLICTS that holds, as `a = 1 cannot go with b = 2: why`; 0 if

@@ -100,6 +100,14 @@ static const CfgRow damping[] = {
   {"rate", CFG_REAL, AT(damping), "1/s", "0", 0, 1e300, "dv/dt = -rate (v - v_frame), in the co-rotating frame of each body"},
   {"radial", CFG_BOOL, AT(damping_radial), NULL, "false", ANY, "damp the radial component only"},
 };
+#define FACES "open|periodic|mirror|mirror_low|mirror_high"
+static const CfgRow boundary[] = {
+  {"x", CFG_CHOICE, AT(faces[0]), FACES, "open", ANY, "faces across x: none, periodic, mirrors at both or at one"},
+  {"y", CFG_CHOICE, AT(faces[1]), FACES, "open", ANY, "the same across y"},
+  {"z", CFG_CHOICE, AT(faces[2]), FACES, "open", ANY, "the same across z"},
+  {"low", CFG_VECTOR, AT(low), "m", "0,0,0", ANY, "where the lower faces are"},
+  {"high", CFG_VECTOR, AT(high), "m", "0,0,0", ANY, "where the upper faces are"},
+};
 static const CfgRow output[] = {
   {"log_every", CFG_INT, AT(log_every), NULL, "10", 1, 1e9, "steps between lines of conserved.tsv"},
   {"checkpoint_every", CFG_REAL, AT(checkpoint_every), "s", "600", 0, 1e300, "wall-clock time between checkpoints; 0: after every step"},
@@ -146,6 +154,7 @@ static const Group groups[] = {GROUP("", top),
                                GROUP("smoothing", smoothing),
                                GROUP("step", step),
                                GROUP("damping", damping),
+                               GROUP("boundary", boundary),
                                GROUP("output", output),
                                GROUP("analysis", analysis)};
 enum { GROUPS = sizeof groups / sizeof *groups };

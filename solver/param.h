@@ -13,6 +13,7 @@ enum { PARAM_FIXED, PARAM_DENSITY, PARAM_NEIGHBOURS };
 enum { PARAM_NONE, PARAM_TREE, PARAM_DIRECT };
 enum { PARAM_FULL, PARAM_ISENTROPIC, PARAM_FROZEN };
 enum { PARAM_MIXED, PARAM_DOUBLE };
+enum { PARAM_OPEN, PARAM_PERIODIC, PARAM_MIRROR, PARAM_MIRROR_LOW, PARAM_MIRROR_HIGH };
 
 enum { PARAM_POINTS = 32 };
 
@@ -31,6 +32,8 @@ typedef struct {
   double cfl, step_acceleration, step_density, step_error, step_min, step_max, step_points;
   double damping;
   int damping_radial;
+  int faces[3];
+  double low[3], high[3];
   int log_every;
   double checkpoint_every;
   double analysis_every, analysis_link, analysis_theta, analysis_virial, analysis_converged,

@@ -7,6 +7,7 @@
 
 #include "../physics/pair.h"
 #include "fluid.h"
+#include "fold.h"
 
 enum { BODIES = 8 };
 
@@ -154,6 +155,15 @@ HD PairBody passes_body(const State *s, long i)
 HD double passes_outer(const State *s, const Step *k, long i, double rho)
 {
   return k->outer > 0 ? -k->outer * s->divv[i] / rho : 0;
+}
+
+/* passes_turn_body: the record of what is seen in a mirror: vectors times w, tensors times w w. */
+HD void passes_turn_body(PairBody *b, const double w[3])
+{
+  const real x = (real)w[0], y = (real)w[1], z = (real)w[2];
+  b->vx *= x, b->vy *= y, b->vz *= z;
+  b->dxy *= x * y, b->dxz *= x * z, b->dyx *= y * x, b->dyz *= y * z, b->dzx *= z * x,
+      b->dzy *= z * y;
 }
 
 /* passes_kick: the acceleration of a kick, component j: gravity counts 1 + k->pull times. */
@@ -471,12 +481,20 @@ HD int pass_bad(const State *s, long i)
   return BAD_NONE;
 }
 
+/* fold: what has left the box comes back. */
+HD void pass_fold(const State *s, const Step *k, long i)
+{
+  (void)k;
+  fold_particle(s, i);
+}
+
 /* X(CAPITAL, name); those that evaluate the equation of state apart. */
 /* clang-format off */
 #define PASSES_EOS(X) X(ADVANCE, advance) X(LOCAL, local) X(SETTLE, settle)
 #define PASSES(X) \
   X(KICK, kick) X(DRIFT, drift) X(FINISH, finish) X(STILL, still) X(SAVE, save) X(COMBINE, combine) \
-  X(DAMP, damp) X(REMEMBER, remember) X(RECALL, recall) X(BODY_FORCE, body_force) PASSES_EOS(X)
+  X(DAMP, damp) X(REMEMBER, remember) X(RECALL, recall) X(BODY_FORCE, body_force) \
+  X(FOLD, fold) PASSES_EOS(X)
 /* clang-format on */
 
 enum {

@@ -56,6 +56,20 @@ static void smoothing_range(Sim *sim, const Parts *p)
   sim->par.h_min *= low, sim->par.h_max *= high;
 }
 
+/* The faces of the box. */
+static void set_bounds(Sim *sim, const Param *p)
+{
+  Bounds *b = &sim->bounds;
+  for (int d = 0; d < 3; d++) {
+    const int faces = p->faces[d];
+    const int both = faces == PARAM_PERIODIC ? BOUNDS_PERIODIC : BOUNDS_OPEN;
+    b->low[d] = faces == PARAM_MIRROR || faces == PARAM_MIRROR_LOW ? BOUNDS_MIRROR : both;
+    b->high[d] = faces == PARAM_MIRROR || faces == PARAM_MIRROR_HIGH ? BOUNDS_MIRROR : both;
+    b->lo[d] = p->low[d], b->hi[d] = p->high[d];
+    b->on |= faces != PARAM_OPEN;
+  }
+}
+
 static int open_common(Sim *sim, const Param *par, const Parts *p, const char *device, Err *err)
 {
   memset(sim, 0, sizeof *sim);
@@ -71,6 +85,7 @@ static int open_common(Sim *sim, const Param *par, const Parts *p, const char *d
   sim->materials = p->materials;
   sim->slots = integrator_of(par->integrator)->slots;
   sim->memory = integrator_of(par->integrator)->memory;
+  set_bounds(sim, par);
   sim->miscible = par->density == PARAM_MISCIBLE;
   if (!(sim->material = material_load(p, err))) return -1;
   for (int k = 0; k < p->materials; k++) {
@@ -127,16 +142,37 @@ static int hand_over(Sim *sim, const Parts *p, Err *err)
   return bad ? -1 : 0;
 }
 
+/* What has left the box comes back. */
+static void fold(Sim *sim)
+{
+  const Step k = sim_step(sim, 0);
+  if (sim->bounds.on) sim->b->pass(sim, PASS_FOLD, &k);
+}
+
+/* Nothing can be behind a mirror. */
+static int inside(const Bounds *b, const Parts *p, Err *err)
+{
+  double plane;
+  for (long i = 0; i < p->n && b->on; i++)
+    for (int d = 0; d < 3; d++)
+      if (bounds_beyond(b, d, p->x[3 * i + d], &plane))
+        return err_set(err, "particle %lld is at %c = %g m, behind the mirror at %g",
+                       (long long)p->id[i], "xyz"[d], p -> x[3 * i + d], plane);
+  return 0;
+}
+
 int sim_open(Sim *sim, const Param *par, const Parts *p, const char *device, Err *err)
 {
   memset(sim, 0, sizeof *sim);
   if (p->points && par->points)
     return err_set(err, "the input has %d point mass(es) already, and the settings list %d",
                    p->points, par->points);
-  if (open_common(sim, par, p, device, err)) return sim_close(sim), -1;
-  smoothing_range(sim, p);
-  if (hand_over(sim, p, err) || integrator_of(sim->par.integrator)->start(sim, err))
+  if (open_common(sim, par, p, device, err) || inside(&sim->bounds, p, err))
     return sim_close(sim), -1;
+  smoothing_range(sim, p);
+  if (hand_over(sim, p, err)) return sim_close(sim), -1;
+  fold(sim);
+  if (integrator_of(sim->par.integrator)->start(sim, err)) return sim_close(sim), -1;
   return 0;
 }
 
@@ -263,6 +299,7 @@ int sim_advance(Sim *sim, double until, SimStep *done, Err *err)
   dt = done->dt;
   plan_gravity(sim, dt, left);
   if (in->step(sim, &dt, err)) return -1;
+  fold(sim);
   if (dt < done->dt) done->limit = LIMITS + 1, done->id = -1;
   done->dt = sim->dt_before = dt;
   sim->time = dt >= left ? until : sim->time + dt;

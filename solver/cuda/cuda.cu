@@ -55,8 +55,8 @@ static int cuda_cards(void)
 size_t cuda_bytes(Sim *sim, const Parts *p)
 {
   return cuda_state_bytes(sim, p) + cuda_store_bytes(sim) + cuda_order_bytes(sim) +
-         cuda_tree_bytes(sim) + cuda_lists_bytes(sim, p) + cuda_loops_bytes(sim) +
-         cuda_gravity_bytes(sim) + cuda_reduce_bytes();
+         cuda_images_bytes(sim) + cuda_tree_bytes(sim) + cuda_lists_bytes(sim, p) +
+         cuda_loops_bytes(sim) + cuda_gravity_bytes(sim) + cuda_reduce_bytes();
 }
 
 /* The card by name, and whether the particles fit; a little is left for what is not counted. */
@@ -95,7 +95,8 @@ static void cuda_close(Sim *sim)
   if (!c) return;
   if (c->stream) cudaStreamSynchronize(c->stream);
   cuda_reduce_close(sim), cuda_gravity_close(sim), cuda_loops_close(sim), cuda_lists_close(sim);
-  cuda_tree_close(sim), cuda_order_close(sim), cuda_clock_close(sim), cuda_store_close(sim);
+  cuda_tree_close(sim), cuda_images_close(sim), cuda_order_close(sim), cuda_clock_close(sim),
+      cuda_store_close(sim);
   cuda_state_close(sim);
   if (c->stream) cudaStreamDestroy(c->stream);
   free(c);
@@ -110,13 +111,14 @@ static int cuda_open(Sim *sim, const Parts *p, Err *err)
   CudaError *error = &c->error;
   sim->own = c;
   memset(&sim->s, 0, sizeof sim->s);
-  sim->s.n = p->n, sim->s.dimension = p->dimension, sim->s.rare = sim->rare;
+  sim->s.n = sim->s.all = p->n, sim->s.room = cuda_images_room(sim, p);
+  sim->s.bounds = sim->bounds, sim->s.dimension = p->dimension, sim->s.rare = sim->rare;
   CHECK(cudaSetDevice(sim->card));
   CHECK(cudaStreamCreateWithFlags(&c->stream, cudaStreamNonBlocking));
   if (!launch_failed(error, err) && !look_at_card(sim, p, err) && !cuda_state_open(sim, p, err) &&
-      !cuda_order_open(sim, err) && !cuda_tree_open(sim, err) && !cuda_lists_open(sim, err) &&
-      !cuda_loops_open(sim, err) && !cuda_gravity_open(sim, err) && !cuda_reduce_open(sim, err) &&
-      !cuda_store_open(sim, err))
+      !cuda_order_open(sim, err) && !cuda_images_open(sim, err) && !cuda_tree_open(sim, err) &&
+      !cuda_lists_open(sim, err) && !cuda_loops_open(sim, err) && !cuda_gravity_open(sim, err) &&
+      !cuda_reduce_open(sim, err) && !cuda_store_open(sim, err))
     return 0;
   cuda_close(sim);
   return -1;
