@@ -6,6 +6,7 @@
 #include <cmocka.h>
 #include <string.h>
 #include <unistd.h>
+#include "lib/pick.h"
 #include "lib/rng.h"
 #include "tools/render/camera.c"
 #include "tools/render/colour.c"
@@ -251,7 +252,7 @@ static void camera(void **state)
     double u, v, depth, seen = 0, mass = 0;
     for (int a = 0; a < 3; a++)
       for (int b = 0; b < 3; b++) assert_true(c.axis[a][b] == axes[k][a][b]);
-    assert_int_equal(camera_centre(&c, p, "com", "a", &err), 0);
+    assert_int_equal(pick_centre(c.centre, p, "com", "a", &err), 0);
     c.scale = c.w / camera_extent(&c, p, 0);
     for (long i = 0; i < p->n; i++) {
       camera_see(&c, p->x + 3 * i, &u, &v, &depth);
@@ -267,13 +268,13 @@ static void camera(void **state)
     assert_true(seen >= 0.99 * mass);
   }
   Camera c = {0};
-  assert_int_equal(camera_centre(&c, p, "1km,-2m,3e3", "a", &err), 0);
+  assert_int_equal(pick_centre(c.centre, p, "1km,-2m,3e3", "a", &err), 0);
   assert_true(c.centre[0] == 1000 && c.centre[1] == -2 && c.centre[2] == 3000);
   const char *const wrong[] = {
       "1,2", "1,2,3,4", "", "1kg,2,3", "body:", "body:x", "body:2", "clump:1", "con"};
   for (int k = 0; k < 9; k++) {
     *err.text = 0;
-    assert_int_equal(camera_centre(&c, p, wrong[k], "a.h5", &err), -1);
+    assert_int_equal(pick_centre(c.centre, p, wrong[k], "a.h5", &err), -1);
     assert_true(*err.text);
   }
   part_free(p);

@@ -4,8 +4,6 @@
 #include <string.h>
 #include <gsl/gsl_sort.h>
 #include "camera.h"
-#include "lib/group.h"
-#include "lib/unit.h"
 
 #define MARGIN  1.2
 #define NEAREST 0.02 /* of the eye's distance: nothing nearer is drawn */
@@ -31,31 +29,6 @@ void camera_turn(Camera *c, double azimuth, double elevation, double roll)
 void camera_plane(Camera *c, const char *plane)
 {
   camera_turn(c, strcmp(plane, "yz") ? -right_angle : 0, strcmp(plane, "xy") ? 0 : right_angle, 0);
-}
-
-static int centre_of(double x[3], const Parts *p, const int32_t *id, long wanted)
-{
-  double mass = 0, sum[3] = {0};
-  for (long i = 0; i < p->n; i++) {
-    if (id && id[i] != wanted) continue;
-    for (int a = 0; a < 3; a++) sum[a] += p->m[i] * p->x[3 * i + a];
-    mass += p->m[i];
-  }
-  for (int a = 0; a < 3 && mass > 0; a++) x[a] = sum[a] / mass;
-  return mass > 0 ? 0 : -1;
-}
-
-int camera_centre(Camera *c, const Parts *p, const char *text, const char *file, Err *err)
-{
-  const int32_t *id;
-  int32_t wanted;
-  Err why;
-  if (!strcmp(text, "com"))
-    return centre_of(c->centre, p, NULL, 0) ? err_set(err, "'%s': no particles", file) : 0;
-  if (!strchr(text, ':') ? unit_list(text, "m", 3, c->centre, &why)
-                         : group_named(p, text, file, &id, &wanted, &why))
-    return err_set(err, "--centre: %s", why.text);
-  return strchr(text, ':') ? centre_of(c->centre, p, id, wanted) : 0;
 }
 
 /* Along an axis, from the centre. */

@@ -20,9 +20,6 @@ typedef struct {
 void camera_turn(Camera *c, double azimuth, double elevation, double roll);
 void camera_plane(Camera *c, const char *plane);
 
-/* camera_centre: com, body:K, fragment:K, clump:K (their centres of mass) or X,Y,Z with units. */
-int camera_centre(Camera *c, const Parts *p, const char *text, const char *file, Err *err);
-
 /* camera_extent: width [m] of a picture of c->w x c->h that shows 99 % of the mass with a margin.
  * Needs axes and centre. slope: tangent of half the angle of a perspective, 0: parallel. */
 double camera_extent(const Camera *c, const Parts *p, double slope);

@@ -6,7 +6,7 @@
 #include <string.h>
 #include "colour.h"
 #include "lib/opt.h"
-#include "lib/snap.h"
+#include "lib/pick.h"
 #include "lib/unit.h"
 #include "movie.h"
 #include "picture.h"
@@ -121,10 +121,17 @@ static void read_ranges(const Picture *pic)
   if (look.log && !numbers) err_usage("--log is for numbers, all fields name kinds");
 }
 
+static void check_expression(const char *option, const char *text)
+{
+  Err err;
+  Expr *e = expr_parse(text, &err);
+  if (!e) err_usage("--%s: %s", option, err.text);
+  expr_free(e);
+}
+
 static void check_fields(void)
 {
   static const char *standard[] = {"MaterialID"};
-  Err err;
   if (!arg.field.n) arg.field = (OptList){standard, 1};
   look.fields = arg.field.n;
   if (look.fields > PICTURE_FIELDS) err_usage("--color: more than %d", PICTURE_FIELDS);
@@ -134,10 +141,9 @@ static void check_fields(void)
   for (int k = 0; k < look.fields; k++) {
     look.field[k] = arg.field.text[k], look.label[k] = k < arg.label.n ? arg.label.text[k] : NULL;
     look.lo[k] = look.hi[k] = NAN;
-    Expr *e = expr_parse(look.field[k], &err);
-    if (!e) err_usage("--color: %s", err.text);
-    expr_free(e);
+    check_expression("color", look.field[k]);
   }
+  if (arg.select) check_expression("select", arg.select);
 }
 
 static void check_camera(void)
@@ -185,34 +191,14 @@ static void check_arguments(int files)
   arrange(isnan(arg.rate) ? files : 1);
 }
 
-static void need(char *members, int size, const char *text, int *all)
-{
-  Err err;
-  Expr *e = expr_parse(text, &err);
-  if (!e) err_usage("--select: %s", err.text);
-  int unknown = strcmp(text, FIELD_COLUMN) ? expr_members(e, members, size) : 0;
-  *all |= unknown != 0;
-  expr_free(e);
-}
-
 /* Only the fields that are asked for. */
 static Parts *get(const char *file)
 {
   Err err;
-  char members[512] = "id x m rho h mat body";
-  int all = 0;
-  if (strchr(look.centre, ':')) strcat(members, " frag clump");
-  for (int k = 0; k < look.fields; k++) need(members, sizeof members, look.field[k], &all);
-  if (arg.select) need(members, sizeof members, arg.select, &all);
-  Parts *p = all ? snap_read(file, &err) : snap_read_some(file, members, &err);
-  if (!p || part_need(p, "id x m rho h mat body", file, &err) || part_check(p, file, &err))
-    err_die("%s", err.text);
-  if (!arg.select) return p;
-  unsigned char *keep = expr_select(arg.select, p, file, &err);
-  Parts *some = keep ? part_select(p, keep, &err) : NULL;
-  if (!some) err_die("%s", err.text);
-  free(keep), part_free(p);
-  return some;
+  Parts *p = pick_read(file, look.field, look.fields, arg.select,
+                       strchr(look.centre, ':') ? "frag clump" : "", &err);
+  if (!p) err_die("%s", err.text);
+  return p;
 }
 
 static void add(Picture *pic, const char *file)

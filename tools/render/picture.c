@@ -7,6 +7,7 @@
 #include <string.h>
 #include <gsl/gsl_sort_float.h>
 #include "colour.h"
+#include "lib/pick.h"
 #include "lib/unit.h"
 #include "picture.h"
 #include "sample.h"
@@ -135,7 +136,7 @@ static int look_at(Picture *pic, Panel *panel, const Parts *p, const Field *f, c
   const Look *l = pic->look;
   Camera c = {.offset = l->offset, .w = panel->box.w, .h = panel->box.h};
   camera_turn(&c, l->turn[0], l->turn[1], l->turn[2]);
-  if (camera_centre(&c, p, l->centre, file, err)) return -1;
+  if (pick_centre(c.centre, p, l->centre, file, err)) return -1;
   double slope = isnan(l->perspective) ? 0 : tan(l->perspective / 2);
   panel->extent = isnan(l->extent) ? camera_extent(&c, p, slope) : l->extent;
   if (!(panel->extent > 0)) return err_set(err, "'%s': nothing to see", file);
