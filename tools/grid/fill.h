@@ -15,9 +15,9 @@ typedef struct {
 } FillHow;
 
 /* fill_raster: the cells of r for its fields (names and units are filled in), from expressions text
- * [fields]; behind them, with the mass method or a column, the mass itself. Interpolated: sum V A W /
- * sum V W inside of the matter, NAN outside, kinds by the particle that weighs most; sum: sum V A W;
- * mass: MassDensity (ColumnDensity) holds the mass of the particles, means weighted by mass. */
+ * [fields]; behind them, with the mass method or a column, the mass itself. Interpolated: sum V A W
+ * / sum V W inside of the matter, NAN outside, kinds by the particle that weighs most; sum: sum V A
+ * W; mass: MassDensity (ColumnDensity) holds the mass of the particles, means weighted by mass. */
 int fill_raster(Raster *r, const Parts *p, const FillHow *how, const char *const *text,
                 const char *const *name, int n, const char *file, Err *err);
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* VTK: K. Martin et al., VTK file formats (Kitware): cells of a grid of n + 1 points; legacy numbers
- * are big-endian, those of the XML file follow its header as they are, each array behind its length. */
+/* VTK file formats (The VTK User's Guide, Kitware): cells of a grid of n + 1 points; legacy numbers
+ * are big-endian, those of the XML file follow its header as they are, each array behind its
+ * length. */
 #include <errno.h>
 #include <stdint.h>
 #include <stdio.h>
