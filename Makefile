@@ -144,6 +144,13 @@ bench-gpu: all $(gpu_benches:%=$B/bench/%)
 	@for b in $(gpu_benches:%=$B/bench/%); do $$b || exit 1; done
 	@for n in 200000 1000000; do for c in solid hydro; do $B/bench/step $$n $$c cuda || exit 1; done; done
 
+# Every experiment that judges itself, at SIZE; check-physics: the small ones, as a test.
+SIZE = small
+validate: all
+	@$(MAKE) --no-print-directory -f pipelines/validate.mk BIN=$(abspath $(BIN)) SIZE=$(SIZE)
+check-physics: all
+	@$(MAKE) --no-print-directory -f pipelines/validate.mk BIN=$(abspath $(BIN)) SIZE=small
+
 lint: all
 	@tests/lint $B
 
@@ -158,6 +165,8 @@ install: all
 	install -m 755 $(programs:%=$(BIN)/%) $(DESTDIR)$(PREFIX)/bin
 	install -m 644 materials/*.cfg $(DESTDIR)$(PREFIX)/share/breccia/materials
 	install -m 644 pipelines/* $(DESTDIR)$(PREFIX)/share/breccia/pipelines
+	install -d $(DESTDIR)$(PREFIX)/share/breccia/python
+	install -m 644 python/breccia.py $(DESTDIR)$(PREFIX)/share/breccia/python
 	install -d $(DESTDIR)$(PREFIX)/share/man/man1
 	@for p in $(programs); do $(BIN)/$$p --man > $(DESTDIR)$(PREFIX)/share/man/man1/$$p.1 || exit 1; done
 
@@ -169,6 +178,7 @@ help:
 	@echo 'make deps       install what the build needs (apt-get)'
 	@echo 'make check      run all tests; make check T=eos runs those that match'
 	@echo 'make check-gpu  the same on a GPU'
+	@echo 'make validate   run the experiments and write out/validate/SIZE/validation.html; SIZE=small|medium|large'
 	@echo 'make bench      check, then time, the hot passes; make bench-gpu on a GPU'
 	@echo 'make lint       format, lengths, exported names'
 	@echo 'make docs       the generated tables of docs/'
@@ -176,6 +186,6 @@ help:
 	@echo 'make asan=1 check     the same with address and undefined-behaviour sanitizers'
 
 FORCE:
-.PHONY: all check check-gpu check-host bench bench-gpu lint docs deps install clean help FORCE
+.PHONY: all check validate check-physics check-gpu check-host bench bench-gpu lint docs deps install clean help FORCE
 .DELETE_ON_ERROR:
 .SECONDARY:

@@ -9,6 +9,10 @@
 
 #define FIELD(TYPE, MEMBER, WIDTH, DATASET, UNIT, MADE_BY, MEANING)                                \
   field(DATASET, WIDTH, #TYPE, UNIT, MADE_BY, MEANING);
+#define POINT(TYPE, MEMBER, DIM, WIDTH, DATASET, UNIT, MEANING)                                    \
+  printf("| `%s` | %s | %s | %s | %s |\n", DATASET, (WIDTH) > 1 ? "(K, 3)" : "(K)",               \
+         !strcmp(#TYPE, "double") ? "float64" : !strcmp(#TYPE, "int64_t") ? "int64" : "int32",     \
+         UNIT, MEANING);
 #define ROW(MEMBER, UNIT, VALUE, MIN, MAX, MEANING) row(#MEMBER, UNIT, VALUE, MIN, MAX, MEANING);
 #define OWN_ROW(KEY, MEMBER, UNIT, VALUE, MIN, MAX, MEANING)                                       \
   row(#KEY, UNIT, VALUE, MIN, MAX, MEANING);
@@ -54,6 +58,9 @@ static void schema(void)
   FIELDS(FIELD)
   printf("\n## Only in checkpoints\n\n%s\n", HEAD);
   CHECKPOINT_FIELDS(FIELD)
+  printf("\n## Point masses, `/PointMasses`\n\nOne row each; stars, planets and sinks of a run.\n\n"
+         "| dataset | shape | type | unit | meaning |\n|---|---|---|---|---|\n");
+  POINTMASS_FIELDS(POINT)
 }
 
 #define TABLE_ROW(CAPITAL, NAME, UNIT, MEANING)                                                    \

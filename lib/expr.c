@@ -179,7 +179,7 @@ static int word(Expr *e, Err *err)
 /* 'material' or `dataset`. */
 static int quoted(Expr *e, Err *err)
 {
-  Node node = {.what = *e->at == '\'' ? MATERIAL : FIELD};
+  Node node = {.what = *e->at == '`' ? FIELD : MATERIAL};
   const char *end = strchr(e->at + 1, *e->at);
   if (!end) return fail(e, "a quote does not end", err);
   if (end - e->at > NAME) return fail(e, "a name that is too long", err);
@@ -217,7 +217,7 @@ static int value(Expr *e, Err *err)
     base = number(e, err);
   else if (word_length(e->at))
     base = word(e, err);
-  else if (*e->at == '\'' || *e->at == '`')
+  else if (*e->at && strchr("'\"`", *e->at))
     base = quoted(e, err);
   else if (*e->at == '(' || *e->at == '|')
     base = enclosed(e, err);
@@ -544,6 +544,17 @@ void expr_eval(const Expr *e, double *out)
   for (long from = 0; from < e->n; from += BLOCK) {
     int n = e->n - from < BLOCK ? (int)(e->n - from) : BLOCK;
     evaluate(e, e->nodes - 1, from, n, out + from);
+  }
+}
+
+void expr_eval_float(const Expr *e, float *out)
+{
+#pragma omp parallel for schedule(static)
+  for (long from = 0; from < e->n; from += BLOCK) {
+    double value[BLOCK];
+    int n = e->n - from < BLOCK ? (int)(e->n - from) : BLOCK;
+    evaluate(e, e->nodes - 1, from, n, value);
+    for (int i = 0; i < n; i++) out[from + i] = (float)value[i];
   }
 }
 

@@ -7,7 +7,7 @@
  * Names are those of datasets; .x .y .z and .xx .xy ... are components, a vector or tensor without
  * is its length. Operators, loosest first: || && == != < <= > >= + - * / unary - and !, ^ (from the
  * right); |a| is the magnitude. A number may carry a unit (3km, 2.7g/cc), a bare one takes that of
- * what it is added to or compared with. Comparisons are 1 or 0. 'ice' in quotes is the index of a
+ * what it is added to or compared with. Comparisons are 1 or 0. 'ice' (or "ice") is the index of a
  * material of the file; `odd name` a dataset whose name is no word. Functions: EXPR_FUNCTIONS. */
 #ifndef EXPR_H
 #define EXPR_H
@@ -49,8 +49,9 @@ int expr_bind(Expr *e, const Parts *p, const char *file, Err *err);
 const char *expr_unit(const Expr *e);
 int expr_kinds(const Expr *e);
 
-/* expr_eval: all particles, out [p->n]; parallel. */
+/* expr_eval: all particles, out [p->n]; parallel. expr_eval_float: the same, rounded. */
 void expr_eval(const Expr *e, double *out);
+void expr_eval_float(const Expr *e, float *out);
 
 /* expr_select: parses, binds and evaluates a condition: keep [p->n] 1 where it is not 0 nor NaN,
  * malloc'ed; NULL on error, and when it holds nowhere. */

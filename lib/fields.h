@@ -44,7 +44,6 @@
   F(double,  delta,  1, "NumberDensity",    "1/m^3",    "solver",   "kernel sum over neighbours (miscible density)") \
   F(double,  signal, 1, "SignalSpeed",      "m/s",      "solver",   "largest signal velocity to a neighbour") \
   F(double,  dcrack, 1, "CrackRate",        "1/s",      "solver",   "rate of the cube root of damage") \
-  F(double,  dalpha, 1, "DistentionRate",   "1/s",      "solver",   "change of the distention in the last step, over its length") \
   F(double,  old_x,   3, "OldVelocity",     "m/s",      "solver",   "at the start of the last step (ab2)") \
   F(double,  old_v,   3, "OldAcceleration", "m/s^2",    "solver",   "at the start of the last step (ab2)") \
   F(double,  old_rho, 1, "OldDensityRate",  "kg/m^3/s", "solver",   "at the start of the last step (ab2)") \
@@ -54,6 +53,29 @@
   F(double,  old_h,   1, "OldSmoothingRate", "m/s",     "solver",   "at the start of the last step (ab2)")
 
 #define ALL_FIELDS(F) FIELDS(F) CHECKPOINT_FIELDS(F)
+
+/* Point masses, in /PointMasses: stars, planets and sinks that pull on the particles and are pulled
+ * by them. P(type, member, dimensions, width, dataset, unit, meaning). */
+#define POINTMASS_FIELDS(P) \
+  P(double,  m,         , 1, "Masses",          "kg",       "mass") \
+  P(double,  x,      [3], 3, "Coordinates",     "m",        "position") \
+  P(double,  v,      [3], 3, "Velocities",      "m/s",      "velocity") \
+  P(double,  a,      [3], 3, "Acceleration",    "m/s^2",    "acceleration") \
+  P(double,  old_x,  [3], 3, "PositionRateBefore", "m/s",   "velocity at the step before (integrator ab2)") \
+  P(double,  old_v,  [3], 3, "VelocityRateBefore", "m/s^2", "acceleration at the step before (integrator ab2)") \
+  P(double,  h,         , 1, "SofteningLength", "m",        "distance below which its pull is softened; 0: nowhere") \
+  P(double,  radius,    , 1, "AccretionRadius", "m",        "radius of the sink; 0: it takes nothing") \
+  P(double,  spin,   [3], 3, "Spin",            "kg*m^2/s", "angular momentum of what it has taken, about its own centre") \
+  P(double,  taken,     , 1, "AccretedMass",    "kg",       "mass that it has taken") \
+  P(int64_t, count,     , 1, "AccretedNumber",  "1",        "particles that it has taken") \
+  P(int32_t, fixed,     , 1, "Fixed",           "1",        "1: it stays where it is") \
+  P(int32_t, deaf,      , 1, "FeelsNoParticles", "1",       "1: only other point masses pull on it")
 /* clang-format on */
+
+typedef struct {
+#define POINTMASS_MEMBER(TYPE, MEMBER, DIM, ...) TYPE MEMBER DIM;
+  POINTMASS_FIELDS(POINTMASS_MEMBER)
+#undef POINTMASS_MEMBER
+} PointMass;
 
 #endif

@@ -304,6 +304,10 @@ static int search(Ngb *g, const Search *s)
     for (int32_t k = 0; k < t->groups; k++) {
       if (failed) continue;
       place[k] = (Place){me, w->n};
+      if (t->split && t->group[k].first >= t->split) {
+        memset(g->start + t->group[k].first + 1, 0, (size_t)t->group[k].count * sizeof *g->start);
+        continue;
+      }
       failed = search_group(w, s, t->group + k, g->start + t->group[k].first + 1) != 0;
     }
   }

@@ -20,7 +20,8 @@ typedef struct {
 /* ngb_search: lists for particles in tree order, x [n][3] and h [n] as the tree was built with. y
  * [n][3] (or NULL) is a second set of positions of the same particles, not far from x up to common
  * motion: a pair is listed when it interacts at x or at y (the solver evaluates one loop at each).
- * Parallel over groups; the result does not depend on the number of threads. -1: no memory, x or h
+ * Parallel over groups; the result does not depend on the number of threads. Of a tree in two parts
+ * (Tree.split) the second is listed only: its own lists are empty or not. -1: no memory, x or h
  * not those of the tree, or a y that is not finite. */
 int ngb_search(Ngb *g, const Tree *t, const double *x, const double *y, const double *h,
                double factor, Err *err);

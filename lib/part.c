@@ -8,6 +8,7 @@
 #include <hdf5.h>
 
 #include "part.h"
+#include "pointmass.h"
 #include "sort.h"
 
 #define KIND(TYPE) _Generic((TYPE)0, double : 'd', int64_t : 'l', int32_t : 'i')
@@ -81,6 +82,7 @@ void part_free(Parts *p)
   free(p->collision);
   free(p->body_info);
   free(p->run);
+  free(p->point);
   for (int i = 0; i < p->extras; i++) {
     if (p->extra[i].type > 0) H5Tclose((hid_t)p->extra[i].type);
     free(p->extra[i].data);
@@ -313,7 +315,8 @@ int part_add_material(Parts *p, const char *name, const char *text, Err *err)
   return p->materials++;
 }
 
-/* Materials, lines and numbers of b appended to those of a copy; index[] gets the new numbers of
+/* What has names in b, and its point masses, appended to those of a copy; index[] gets the new
+ * numbers of
  * b's materials. */
 static int add_names(Parts *p, const Parts *b, int *index, Err *err)
 {
@@ -334,7 +337,7 @@ static int add_names(Parts *p, const Parts *b, int *index, Err *err)
     if (!find_number(p->body_info, p->body_infos, b->body_info[i].name) &&
         part_set_number(p, "body", b->body_info[i].name, b->body_info[i].value, err))
       return -1;
-  return 0;
+  return pointmass_append(&p->point, &p->points, b->point, b->points, err);
 }
 
 /* ---- moving particles ---- */

@@ -55,6 +55,8 @@ typedef struct {
   int body_infos;
   PartNumber *run; /* [runs] attributes of /Run: where a run of the solver stands */
   int runs;
+  PointMass *point; /* [points] point masses */
+  int points;
   PartExtra *extra; /* [extras] unknown fields, carried through */
   int extras;
 } Parts;
@@ -120,12 +122,12 @@ int part_permute(Parts *p, const long *order, Err *err);
  * merged and mat of b renumbered. Ids of b that occur in a are an error, as are unequal dimensions
  * and unknown fields of the same name but another shape, type or unit. Time and named numbers are
  * a's; numbers that only b has are added, so rename Radius0 of b before. History and parameters of
- * b follow those of a. */
+ * b follow those of a, and so do its point masses. */
 Parts *part_join(const Parts *a, const Parts *b, Err *err);
 
 /* part_history: appends a command line. part_set_number / part_number: named numbers in /Collision
  * ("collision"), /Body ("body") or /Run ("run"); part_number returns NAN when it is not there.
- * /Run goes with a whole file only: part_select and part_join leave it out. */
+ * /Run goes with a whole file only: part_select and part_join leave it out. Point masses stay. */
 int part_history(Parts *p, const char *command_line, Err *err);
 int part_set_number(Parts *p, const char *group, const char *name, double value, Err *err);
 double part_number(const Parts *p, const char *group, const char *name);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The layout of a snapshot, written and read side by side: /Header, /Units, /Materials, /History,
- * /Parameters, /Collision, /Body, /PartType0, and the view Step#0. Inner functions say what is
+ * /Parameters, /Collision, /Body, /PointMasses, /PartType0, and the view Step#0. Inner functions
+ * say what is
  * wrong; snap_read and snap_write put the file's name before it. */
 #include <errno.h>
 #include <math.h>
@@ -10,6 +11,7 @@
 #include <unistd.h>
 
 #include "hdf.h"
+#include "pointmass.h"
 #include "snap.h"
 #include "spool.h"
 #include "view.h"
@@ -64,16 +66,16 @@ static int put_units(const Writer *w)
 }
 
 /* /Materials/Name and /Materials/Text: MaterialID is the index into both. */
-static int put_materials(const Writer *w, const Parts *p)
+int snap_put_materials(int64_t file, const Parts *p, Err *err)
 {
   char **name = calloc((size_t)p->materials + 1, sizeof *name);
   char **text = calloc((size_t)p->materials + 1, sizeof *text);
-  hid_t g = hdf_group(w->file, "Materials", w->err);
-  int rc = name && text ? 0 : err_set(w->err, "out of memory");
+  hid_t g = hdf_group(file, "Materials", err);
+  int rc = name && text ? 0 : err_set(err, "out of memory");
   for (int i = 0; i < p->materials && !rc; i++)
     name[i] = p->material[i].name, text[i] = p->material[i].text;
-  rc = rc || g < 0 || hdf_put_strings(g, "Name", name, p->materials, w->err) ||
-       hdf_put_strings(g, "Text", text, p->materials, w->err);
+  rc = rc || g < 0 || hdf_put_strings(g, "Name", name, p->materials, err) ||
+       hdf_put_strings(g, "Text", text, p->materials, err);
   if (g >= 0) H5Gclose(g);
   free(name);
   free(text);
@@ -157,12 +159,13 @@ static int put_particles(Writer *w, const Parts *p, int checkpoint)
 
 static int put_all(Writer *w, const Parts *p, int checkpoint)
 {
-  return put_header(w, p) || put_units(w) || put_materials(w, p) ||
+  return put_header(w, p) || put_units(w) || snap_put_materials(w->file, p, w->err) ||
                  hdf_put_strings(w->file, "History", p->history, p->histories, w->err) ||
                  hdf_put_strings(w->file, "Parameters", p->parameter, p->parameters, w->err) ||
                  put_numbers(w, "Collision", p->collision, p->collisions) ||
                  put_numbers(w, "Body", p->body_info, p->body_infos) ||
-                 put_numbers(w, "Run", p->run, p->runs) || put_particles(w, p, checkpoint)
+                 put_numbers(w, "Run", p->run, p->runs) || pointmass_put(w->file, p, w->err) ||
+                 put_particles(w, p, checkpoint)
              ? -1
              : 0;
 }
@@ -399,7 +402,7 @@ static int fill_materials(Parts *p, char *const *name, char **text, int n, Err *
   return 0;
 }
 
-static int get_materials(hid_t file, Parts *p, Err *err)
+int snap_get_materials(int64_t file, Parts *p, Err *err)
 {
   char **name = NULL, **text = NULL;
   int names = 0, texts = 0;
@@ -452,12 +455,12 @@ static int get_numbers(hid_t file, const char *group, Parts *p, const char *list
 
 static int get_all(hid_t file, Parts *p, const char *members, Err *err)
 {
-  return get_header(file, p, err) || get_materials(file, p, err) ||
+  return get_header(file, p, err) || snap_get_materials(file, p, err) ||
          hdf_get_strings(file, "History", &p->history, &p->histories, err) ||
          hdf_get_strings(file, "Parameters", &p->parameter, &p->parameters, err) ||
          get_numbers(file, "Collision", p, "collision", err) ||
          get_numbers(file, "Body", p, "body", err) || get_numbers(file, "Run", p, "run", err) ||
-         get_particles(file, p, members, err);
+         pointmass_get(file, p, err) || get_particles(file, p, members, err);
 }
 
 Parts *snap_read(const char *path, Err *err) { return snap_read_some(path, NULL, err); }

@@ -26,6 +26,11 @@ Parts *snap_read_some(const char *path, const char *members, Err *err);
  * failure nothing is left behind. */
 int snap_write(const Parts *p, const char *path, int checkpoint, Err *err);
 
+/* snap_put_materials, snap_get_materials: the group /Materials of an open HDF5 file (a hid_t),
+ * which other formats may hold too; an absent one leaves p without materials. */
+int snap_put_materials(int64_t file, const Parts *p, Err *err);
+int snap_get_materials(int64_t file, Parts *p, Err *err);
+
 /* snap_series: writes DIR/run.h5part, the series of snapshots for ParaView: Step#k are external
  * links to files[k] (names relative to DIR) with the attribute TimeValue, which is the
  * snapshot's own; TimeValues lists all times [s]. Atomic. */

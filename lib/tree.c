@@ -38,6 +38,13 @@ static void hilbert_keys(const Cube *cube, long n, const double *x, uint64_t *ke
   }
 }
 
+/* Two parts: the first digit says which; the last one gives way. */
+static void split_keys(long n, long split, uint64_t *key)
+{
+  for (long i = 0; split && i < n; i++)
+    key[i] = key[i] >> 3 | (uint64_t)(i >= split) << 3 * (TREE_LEVELS - 1);
+}
+
 /* The root cube, drawn by shift unless that is 0; -1 - k when the k-th coordinate is bad. */
 static long find_cube(long n, const double *x, uint64_t shift, Cube *cube)
 {
@@ -93,7 +100,8 @@ static int break_ties(long n, const uint64_t *key, const int64_t *id, long *orde
   return 0;
 }
 
-int tree_order(long n, const double *x, const int64_t *id, uint64_t shift, long *order, Err *err)
+int tree_order_parts(long n, long split, const double *x, const int64_t *id, uint64_t shift,
+                     long *order, Err *err)
 {
   Cube cube;
   long bad = find_cube(n, x, shift, &cube);
@@ -103,10 +111,15 @@ int tree_order(long n, const double *x, const int64_t *id, uint64_t shift, long 
                    (long long)(id ? id[bad / 3] : bad / 3), x[bad]);
   }
   uint64_t *key = malloc((size_t)n * sizeof *key + 1);
-  if (key) hilbert_keys(&cube, n, x, key);
+  if (key) hilbert_keys(&cube, n, x, key), split_keys(n, split, key);
   int failed = !key || sort_keys(n, key, order) || (id && break_ties(n, key, id, order));
   free(key);
   return failed ? err_set(err, "cannot sort %ld particles: no memory", n) : 0;
+}
+
+int tree_order(long n, const double *x, const int64_t *id, uint64_t shift, long *order, Err *err)
+{
+  return tree_order_parts(n, 0, x, id, shift, order, err);
 }
 
 static int new_node(Tree *t)
@@ -336,6 +349,7 @@ int tree_build(Tree *t, long n, const double *x, const double *m, const double *
   }
   if (!t->key) return err_set(err, "cannot build a tree of %ld particles: no memory", n);
   hilbert_keys(&cube, n, x, t->key);
+  split_keys(n, t->split, t->key);
   for (long i = 1; i < n; i++)
     if (t->key[i - 1] > t->key[i])
       return err_set(err, "cannot build a tree: particle number %ld is not in Hilbert order", i);

@@ -51,6 +51,7 @@ typedef struct {
   int32_t groups;
   double origin[3], edge; /* the root cube [m]; edge 1 when all particles coincide */
   uint64_t shift;         /* as given to tree_order; set it before tree_build */
+  long split;             /* the same */
   /* private to tree.c: allocated lengths, and the keys */
   int32_t node_room, walk_room, group_room;
   uint64_t *key;
@@ -63,6 +64,11 @@ typedef struct {
  * no memory, or a coordinate that is not finite (or beyond 1e150); the message names the
  * particle's id. */
 int tree_order(long n, const double *x, const int64_t *id, uint64_t shift, long *order, Err *err);
+
+/* tree_order_parts: the same for a tree of two parts: particles split .. n-1 come after all others,
+ * both in Hilbert order (0: one part). */
+int tree_order_parts(long n, long split, const double *x, const int64_t *id, uint64_t shift,
+                     long *order, Err *err);
 
 /* tree_build: nodes and groups of particles that ARE in Hilbert order (see tree_order) at x [n][3],
  * n > 0, with masses m (NULL: none, for searches only) and supports h (NULL: zeros). Reuses the

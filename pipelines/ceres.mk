@@ -40,31 +40,31 @@ OUT = out/ceres
 this := $(lastword $(MAKEFILE_LIST))
 here := $(dir $(this))
 include $(here)common.mk
-bodies := $(OUT)/N$(N)-s$(SEED)
-runs := $(foreach a,$(ANGLE),$(foreach v,$(SPEED),$(bodies)/a$a-v$v))
-pictures := cut.png damage.png end-1.png $(if $(shell command -v gnuplot),conserved.png spectrum.png)
+include $(here)recipes.mk
+runs := $(foreach a,$(ANGLE),$(foreach v,$(SPEED),$(OUT)/N$(N)-s$(SEED)/a$a-v$v))
+pictures := cut.png damage.png end-1.png $(if $(shell command -v gnuplot),conserved.png spectrum.png masses.png)
 analysis := dumps.tsv frames.txt before.tsv after.tsv fragments.h5 fragments.tsv clumps.tsv report.txt checked $(pictures) end-2.png
 
 all: $(foreach r,$(runs),$(addprefix $r/,$(pictures) checked))
 check: $(runs:%=%/checked)
 
-# Both bodies have the mass of Ceres; their particles have the same volume: (0.7/2700 + 0.3/917) to 1/2700 m^3/kg.
+# Both bodies, from the library, have the mass of Ceres; their particles have the same volume: (0.7/2700 + 0.3/917) to 1/2700 m^3/kg.
 share = $(shell awk 'BEGIN { print int($1*$(N) + 0.5) }')
-$(call from,$(bodies)/target.h5,-n $(call share,0.6129) -m 9.43e20kg -l basalt:0.7 -l $(ICE):0.3 --rotate $(SEED)1)
-$(call from,$(bodies)/impactor.h5,-n $(call share,0.3871) -m 9.43e20kg -l basalt:1 --rotate $(SEED)2)
-$(bodies)/%.h5: | $(programs)
-	@mkdir -p $(@D)
-	mksphere $(vars) | relax | weibull --seed $(lastword $(vars)) -o $@
-	$(remember)
+icy := ceres$(if $(filter-out ice,$(ICE)),_$(subst -,_,$(notdir $(basename $(ICE)))))
+recipe.$(icy) = $(call ceres_with,$(ICE))
+target := $(icy)-n$(call share,0.6129)-s$(SEED)1
+impactor := ceres_rock-n$(call share,0.3871)-s$(SEED)2
+bodies := $(call with_flaws,$(target) $(impactor))
+$(call library,$(target) $(impactor))
 
 # On the way to each other; angle and speed are read from the name a48-v1.7.
 name = $(subst -v, ,$(patsubst a%,%,$(notdir $(@D))))
 orbit = --angle $(firstword $(name))deg --speed $(lastword $(name))vesc $(vars)
-$(call from,$(runs:%=%/start.h5),--distance $(DISTANCE)km)
-$(runs:%=%/start.h5): $(bodies)/target.h5 $(bodies)/impactor.h5
+$(call from,$(runs:%=%/start.h5),--distance $(DISTANCE)km $(bodies))
+$(runs:%=%/start.h5): $(bodies)
 	@mkdir -p $(@D)
-	collide $(orbit) --dry-run $(filter %.h5,$^) > $(@D)/geometry.tsv
-	collide $(orbit) -o $@ $(filter %.h5,$^)
+	collide $(orbit) --dry-run > $(@D)/geometry.tsv
+	collide $(orbit) -o $@
 	$(remember)
 
 # The run. It continues from its checkpoint when that is of the same start and the same settings, also to a later end.
@@ -117,6 +117,13 @@ $(runs:%=%/fragments.tsv): %/fragments.tsv: %/dumps.tsv
 # The cumulative mass spectrum at the end, without the largest fragment (001 fig. 8).
 %/spectrum.png: %/fragments.tsv
 	histo --skip 1 -o $@ -t '$(title)' $< > $*/spectrum.tsv
+
+# The largest bodies against time, and where in the two bodies the matter of the survivors was.
+$(call from,$(runs:%=%/masses.png),--min-particles $(LEAST))
+$(runs:%=%/masses.png): %/masses.png: %/dumps.tsv
+	cd $*/run; track $(vars) -c ../masses.tsv -m ../provenance.h5 -o ../origin.h5 -p ../masses.png --title '$(title)' \
+	  $$(cut -f 1 ../dumps.tsv) > ../objects.tsv
+	$(remember)
 
 # What came out, beside the paper's numbers, and what must hold. `checked` is there when it holds.
 report = geometry.tsv before.tsv after.tsv fragments.tsv clumps.tsv run/conserved.tsv

@@ -13,7 +13,11 @@ FNR == 2 && name { report() }
   off = ($3 - pressure($2))/at; d = $2 - boundary
   if (d*d < $5*$5/4) { sum[$1] += off; number[$1]++ }
   else if ($2 > 0.1*r[n] && $2 + $5 < r[n] && d*d > $5*$5) { square += off*off; others++ } }
-END { report() }
+END {
+  report()
+  good = jump["standard"] > 0 && jump["miscible"]^2 < (0.25*jump["standard"])^2
+  print (good ? "ok" : "FAILED") "\tmiscible leaves less than a quarter of the jump that standard SPH has"
+}
 
 function pressure(x,   low, high, mid) {
   low = 1; high = n
@@ -24,5 +28,6 @@ function report() {
   if (!number[0] || !number[1]) { print name ": too few particles at the boundary"; exit 1 }
   printf "%s\t%d\t%.4f\t%d\t%.4f\t%.4f\t%.4g\n", name, number[0], sum[0]/number[0], number[1], sum[1]/number[1],
     sum[1]/number[1] - sum[0]/number[0], others ? sqrt(square/others) : "nan"
+  jump[name] = sum[1]/number[1] - sum[0]/number[0]
   delete sum; delete number; square = others = 0
 }

@@ -5,28 +5,26 @@
 #ifndef BACKEND_H
 #define BACKEND_H
 
-#include "passes.h"
 #include "param.h"
+#include "passes.h"
+#include "points.h"
 
 /* Sums over all particles in a fixed order, independent of threads. SI; energies in J. */
-typedef struct {
+struct Sums {
   double mass, kinetic, internal, potential;
   double momentum[3], angular[3], centre[3]; /* kg m/s, kg m^2/s, m */
   double scale_momentum, scale_angular; /* sum m |v|, sum m |r x v|: what drifts are measured by */
   double
       outside[3]; /* particles outside their table: in density, above it and below it in energy */
-  double held[2]; /* particles whose h is at its smallest, at its largest */
-} Sums;
+};
 
-/* The smallest time step that a criterion allows, which and to whom; the first particle in a bad
- * state. */
+/* The smallest of each time-step criterion, the particle that has it, and the first particle in a
+ * bad state. */
 typedef struct {
-  double dt;       /* s */
-  int which;       /* enum of LIMIT_NAMES */
-  int64_t id;      /* the particle, or -1 */
-  double dilation; /* largest |div v| [1/s] */
-  int64_t bad;     /* id of a particle that is not finite or not positive, or -1 */
-  int bad_reason;  /* enum bad */
+  double dt[LIMITS];
+  int64_t id[LIMITS];
+  int64_t bad;    /* id of a particle that is not finite or not positive, or -1 */
+  int bad_reason; /* enum bad */
 } Limits;
 
 typedef struct {
@@ -47,8 +45,6 @@ enum {
   TIMERS
 };
 
-typedef struct Sim Sim;
-
 struct backend {
   const char *name;
   /* cards: how many devices there are for it; -1: this build lacks the backend. */
@@ -64,15 +60,18 @@ struct backend {
   int (*copy)(Sim *sim, void *to, const void *from, size_t bytes, Err *err);
   /* search: orders the particles, builds the tree at x and the neighbour lists for x and for y. */
   int (*search)(Sim *sim, Err *err);
-  /* pass: one of passes.h over all particles. */
+  /* pass: one of passes.h over all particles, and points_pass. */
   void (*pass)(Sim *sim, int pass, const Step *step);
   /* gradient: loop A at y with v, ha and volumes m/rhoa: divv and (solids) g, cm. density: kernel
    * sums at x: rho, delta, and rhoa, the mean of rho before and after. force: loop B at x with
-   * vp: acc, du, signal, nngb. gravity: when it is due sets pull and phi; adds pull to acc. */
+   * vp: acc, du, signal, nngb. gravity: when it is due sets pull and phi; adds pull to acc; then
+   * points_exchange. */
   void (*gradient)(Sim *sim);
   void (*density)(Sim *sim);
   void (*force)(Sim *sim);
   int (*gravity)(Sim *sim, Err *err);
+  /* points: adds the pull of these masses at x to acc; reaction [field->n]: what each does. */
+  int (*points)(Sim *sim, const PointField *field, PointReaction *reaction, Err *err);
   /* Reductions (reduce.h). bodies: centre, velocity and spin of each body id below BODIES, for
    * damping. error: the largest of rk2-adaptive for a tolerance of 1. Failures of steps that return
    * nothing are reported here, by search, gravity or store. */
@@ -97,6 +96,7 @@ struct Sim {
   int porous;   /* any material with pores */
   int heated;   /* any material whose strength has a temperature of its own, and strength on */
   int miscible; /* the number-density form */
+  Bounds bounds;
   State s;
   void *own;       /* the backend's */
   int card;        /* which of the backend's devices */
@@ -108,7 +108,7 @@ struct Sim {
    * the next, as planned, and so far; the length of these and for how long it has kicked [s] */
   int pull_due, outer_steps, outer;
   double outer_time, outer_kick;
-  double dilation;   /* largest |div v| as the last look at the limits had it [1/s] */
+  PointMasses points;
   int slots, memory; /* of the integrator: saved states, rates of the step before */
   double dt_before;  /* length of the last step [s]; 0: there is none */
   BackendTimer timer[TIMERS];
@@ -121,9 +121,6 @@ const struct backend *backend_find(const char *device, int *card, Err *err);
 /* backend_idle: whether no pass of this run reads or writes the field of the state by that name: no
  * backend holds an array for it. */
 int backend_idle(const Sim *sim, const char *member);
-
-/* backend_range: the range of h into the state. */
-void backend_range(Sim *sim);
 
 /* backend_look: the state of one particle as text, for error messages. */
 void backend_look(Sim *sim, int64_t id, char *text, size_t size);

@@ -14,38 +14,32 @@
     "only leapfrog kicks with gravity in steps of its own") \
   C("step.max", "step.min", p->step_max > 0 && p->step_max <= p->step_min, "no step is left between the two") \
   C("heating.profile", "heating.radius", p->deposit_profile && p->deposit_radius == 0, "it needs a radius") \
-  C("heating.begin", "heating.end", p->deposit_begin >= p->deposit_end, "no time is left between the two")
+  C("heating.begin", "heating.end", p->deposit_begin >= p->deposit_end, "no time is left between the two") \
+  CONFLICT_AXES(C)
+
+/* The same for each axis. */
+#define CONFLICT_AXES(C) CONFLICT_AXIS(C, "x", 0) CONFLICT_AXIS(C, "y", 1) CONFLICT_AXIS(C, "z", 2)
+#define CONFLICT_AXIS(C, X, D) \
+  C("boundary." X, "boundary.high", \
+    (p->faces[D] == PARAM_PERIODIC || p->faces[D] == PARAM_MIRROR) && !(p->high[D] > p->low[D]), \
+    "the upper face must be above the lower one") \
+  C("boundary." X, "a run of fewer dimensions", p->faces[D] != PARAM_OPEN && D >= s->s.dimension, \
+    "nothing moves along that axis") \
+  C("boundary." X, "gravity.method", p->faces[D] != PARAM_OPEN && p->gravity != PARAM_NONE, \
+    "images do not pull")
 
 /* U(key, condition, because): the key, when it is not at its default, has no effect on this run
  * because of `because`: a key, whose value is then said, or a reason in words. */
 #define UNUSED_SETTINGS(U) \
   U("density_floor", p->density != PARAM_CONTINUITY && p->density_floor <= 1, "density") \
   U("gravity.theta", p->gravity != PARAM_TREE, "gravity.method") \
-  U("gravity.G", p->gravity == PARAM_NONE, "gravity.method") \
+  U("gravity.G", p->gravity == PARAM_NONE && !s->points.n, "gravity.method") \
   U("gravity.every", p->gravity == PARAM_NONE, "gravity.method") \
-  U("smoothing.neighbours", p->smoothing != PARAM_NEIGHBOURS && p->smoothing != PARAM_OVERCORRECTED, "smoothing.mode") \
-  U("smoothing.fewest", p->smoothing != PARAM_OVERCORRECTED, "smoothing.mode") \
-  U("smoothing.most", p->smoothing != PARAM_OVERCORRECTED, "smoothing.mode") \
-  U("smoothing.width", p->smoothing != PARAM_OVERCORRECTED, "smoothing.mode") \
+  U("smoothing.neighbours", p->smoothing != PARAM_NEIGHBOURS, "smoothing.mode") \
   U("smoothing.min", p->smoothing == PARAM_FIXED, "smoothing.mode") \
   U("smoothing.max", p->smoothing == PARAM_FIXED, "smoothing.mode") \
+  U("step.points", s->points.n < 2, "there are no two point masses") \
   U("step.error", integrator_of(p->integrator) != &integrator_rk2_adaptive, "integrator") \
-  U("step.growth", integrator_of(p->integrator) != &integrator_rk2_adaptive, "integrator") \
-  U("step.energy", p->energy == PARAM_FROZEN, "energy") \
-  U("step.energy_least", !(p->step_energy > 0), "step.energy") \
-  U("step.smoothing", p->smoothing == PARAM_FIXED, "smoothing.mode") \
-  U("step.stress", !s->solid, "no material has a deviatoric stress in this run") \
-  U("step.stress_least", !(p->step_stress > 0), "step.stress") \
-  U("step.damage", !(s->solid && p->damage), "there is no damage in this run") \
-  U("step.damage_least", !(p->step_damage > 0), "step.damage") \
-  U("step.distention", !s->porous, "no material has pores") \
-  U("step.pressure", !s->porous, "no material has pores") \
-  U("error.position", integrator_of(p->integrator) != &integrator_rk2_adaptive, "integrator") \
-  U("error.velocity", integrator_of(p->integrator) != &integrator_rk2_adaptive, "integrator") \
-  U("error.density", integrator_of(p->integrator) != &integrator_rk2_adaptive, "integrator") \
-  U("error.energy", integrator_of(p->integrator) != &integrator_rk2_adaptive, "integrator") \
-  U("error.stress", integrator_of(p->integrator) != &integrator_rk2_adaptive, "integrator") \
-  U("error.damage", integrator_of(p->integrator) != &integrator_rk2_adaptive, "integrator") \
   U("damping.radial", !(p->damping > 0), "damping.rate") \
   U("analysis.method", !(p->analysis_every > 0), "analysis.every") \
   U("analysis.criterion", !(p->analysis_every > 0), "analysis.every") \
@@ -70,7 +64,9 @@
   U("heating.y", p->deposit_radius == 0, "heating.radius") \
   U("heating.z", p->deposit_radius == 0, "heating.radius") \
   U("heating.begin", p->deposit == 0, "heating.rate") \
-  U("heating.end", p->deposit == 0, "heating.rate")
+  U("heating.end", p->deposit == 0, "heating.rate") \
+  U("boundary.low", !s->bounds.on, "no axis of boundary has a face") \
+  U("boundary.high", !s->bounds.on, "no axis of boundary has a face")
 /* clang-format on */
 
 /* conflict_check: the first row of CONFLICTS that holds, as `a = 1 cannot go with b = 2: why`; 0 if

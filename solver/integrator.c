@@ -96,7 +96,7 @@ int integrator_begin(Sim *sim, Err *err)
 int integrator_potential(Sim *sim, Err *err)
 {
   Step k = sim_step(sim, 0);
-  if (sim->par.gravity == PARAM_NONE) return 0;
+  if (sim->par.gravity == PARAM_NONE && !sim->points.n) return 0;
   sim->b->pass(sim, PASS_STILL, &k);
   return sim->b->search(sim, err) || sim->b->gravity(sim, err) ? -1 : 0;
 }

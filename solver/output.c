@@ -16,8 +16,7 @@ static const char HEADER[] = "# "
                              "step\ttime[s]\tdt[s]\tlimit\tparticle\tE_kinetic[J]\tE_internal[J]"
                              "\tE_potential[J]\tE_total[J]\tp_x[kg*m/s]\tp_y[kg*m/s]\t"
                              "p_z[kg*m/s]\tL_x[kg*m^2/s]\tL_y[kg*m^2/s]\tL_z[kg*m^2/"
-                             "s]\tsum_mv[kg*m/s]\tsum_mrv[kg*m^2/s]\tmass[kg]\tx[m]\ty[m]\tz[m]\t"
-                             "h_at_min\th_at_max\n";
+                             "s]\tsum_mv[kg*m/s]\tsum_mrv[kg*m^2/s]\tmass[kg]\tx[m]\ty[m]\tz[m]\n";
 
 static void name_of(const char *dir, const char *name, char *path, size_t size)
 {
@@ -118,15 +117,6 @@ static void note_outside(Output *o, const Sim *sim, const double outside[3])
       sim->step, sim->time, outside[0], outside[1], outside[2]);
 }
 
-/* A line in the log when the first particles have the smallest or largest h that is allowed. */
-static void note_held(Output *o, const Sim *sim, int end, double held)
-{
-  if (held > 0 && o->most_held[end] == 0)
-    output_log(o, "step %ld, t = %.9g s: %.0f particles have the %s h allowed, smoothing.%s",
-               sim->step, sim->time, held, end ? "largest" : "smallest", end ? "max" : "min");
-  o->most_held[end] = fmax(o->most_held[end], held);
-}
-
 int output_conserved(Output *o, Sim *sim, const SimStep *done, Err *err)
 {
   Sums s;
@@ -140,8 +130,7 @@ int output_conserved(Output *o, Sim *sim, const SimStep *done, Err *err)
   for (int d = 0; d < 3; d++) fprintf(o->conserved, "\t%.12g", s.angular[d]);
   fprintf(o->conserved, "\t%.9g\t%.9g\t%.15g", s.scale_momentum, s.scale_angular, s.mass);
   for (int d = 0; d < 3; d++) fprintf(o->conserved, "\t%.9g", s.centre[d]);
-  fprintf(o->conserved, "\t%.0f\t%.0f\n", s.held[0], s.held[1]);
-  for (int d = 0; d < 2; d++) note_held(o, sim, d, s.held[d]);
+  fputc('\n', o->conserved);
   if (fflush(o->conserved))
     return err_set(err, "cannot write '%s/conserved.tsv': %s", o->dir, strerror(errno));
   return 0;

@@ -81,12 +81,9 @@ static const CfgRow heating[] = {
   {"end", CFG_REAL, AT(deposit_end), "s", "1e300", ANY, "to this time"},
 };
 static const CfgRow smoothing[] = {
-  {"mode", CFG_CHOICE, AT(smoothing), "fixed|density|neighbours|overcorrected", "density", ANY,
-   "h constant, following the density, also pulled to the number of neighbours, or pushed back where they are too few or many"},
-  {"neighbours", CFG_REAL, AT(neighbours), "1", "57", 1, 1000, "wanted number of neighbours for modes neighbours and overcorrected"},
-  {"fewest", CFG_REAL, AT(fewest), "1", "0.666666666666667", 0, 1, "of these: below it mode overcorrected lets h grow (004: 2/3)"},
-  {"most", CFG_REAL, AT(most), "1", "1.66666666666667", 1, 100, "of these: above it mode overcorrected lets h shrink (004: 5/3)"},
-  {"width", CFG_REAL, AT(width), "1", "5", 0.1, 1000, "neighbours over which mode overcorrected sets in"},
+  {"mode", CFG_CHOICE, AT(smoothing), "fixed|density|neighbours", "density", ANY,
+   "h constant, following the density, or also the number of neighbours"},
+  {"neighbours", CFG_REAL, AT(neighbours), "1", "57", 1, 1000, "wanted number of neighbours for mode neighbours"},
   {"min", CFG_REAL, AT(h_min), "1", "0.2", 0, 1, "smallest h, in units of the smallest of the input"},
   {"max", CFG_REAL, AT(h_max), "1", "5", 1, 1e6, "largest h, in units of the largest of the input"},
 };
@@ -95,33 +92,21 @@ static const CfgRow step[] = {
   {"acceleration", CFG_REAL, AT(step_acceleration), "1", "0.25", 1e-6, 2, "of sqrt(h/a)"},
   {"density", CFG_REAL, AT(step_density), "1", "0.3", 1e-6, 10, "of 1/|div v|"},
   {"error", CFG_REAL, AT(step_error), "1", "1e-4", 1e-15, 1, "tolerance of rk2-adaptive"},
-  {"growth", CFG_REAL, AT(step_growth), "1", "2", 1, 100, "most that a step of rk2-adaptive may grow by after one that it kept"},
-  {"energy", CFG_REAL, AT(step_energy), "1", "0", 0, 10, "of (u + energy_least)/|du/dt| where u falls; 0: no such limit"},
-  {"smoothing", CFG_REAL, AT(step_smoothing), "1", "0", 0, 10, "of h/|dh/dt|; 0: no such limit"},
-  {"stress", CFG_REAL, AT(step_stress), "1", "0", 0, 10, "of (|S| + stress_least)/|dS/dt|; 0: no such limit"},
-  {"damage", CFG_REAL, AT(step_damage), "1", "0", 0, 10, "of (D^(1/3) + damage_least)/|d(D^(1/3))/dt|; 0: no such limit"},
-  {"distention", CFG_REAL, AT(step_distention), "1", "0", 0, 100,
-   "largest change of the distention in a step (rk2-adaptive repeats a step that exceeds it); 0: no such limit"},
-  {"pressure", CFG_REAL, AT(step_pressure), "1", "0", 0, 1000,
-   "largest change of p in a step, of the p_e at which pores begin to crush; 0: no such limit"},
-  {"energy_least", CFG_REAL, AT(energy_least), "J/kg", "100", 0, 1e300, "added to u in step.energy"},
-  {"stress_least", CFG_REAL, AT(stress_least), "Pa", "1e4", 0, 1e300, "added to |S| in step.stress"},
-  {"damage_least", CFG_REAL, AT(damage_least), "1", "0.01", 0, 1, "added to D^(1/3) in step.damage"},
-  {"first", CFG_REAL, AT(step_first), "s", "0", 0, 1e300, "largest first step; 0: no such limit"},
   {"min", CFG_REAL, AT(step_min), "s", "1e-30", 0, 1e300, "a step below this stops the run"},
   {"max", CFG_REAL, AT(step_max), "s", "0", 0, 1e300, "largest step; 0: no such limit"},
-};
-static const CfgRow error[] = {
-  {"position", CFG_REAL, AT(error_position), "1", "1", 0, 1e6, "weight of the error of x over h against step.error; 0: not controlled"},
-  {"velocity", CFG_REAL, AT(error_velocity), "1", "1", 0, 1e6, "of v over the speed of sound"},
-  {"density", CFG_REAL, AT(error_density), "1", "1", 0, 1e6, "of rho over itself"},
-  {"energy", CFG_REAL, AT(error_energy), "1", "1", 0, 1e6, "of u over |u| + c^2"},
-  {"stress", CFG_REAL, AT(error_stress), "1", "1", 0, 1e6, "of S over rho c^2"},
-  {"damage", CFG_REAL, AT(error_damage), "1", "1", 0, 1e6, "of D^(1/3)"},
+  {"points", CFG_REAL, AT(step_points), "1", "0.03", 1e-6, 1, "of the least sqrt(r^3/(G m)) between two point masses"},
 };
 static const CfgRow damping[] = {
   {"rate", CFG_REAL, AT(damping), "1/s", "0", 0, 1e300, "dv/dt = -rate (v - v_frame), in the co-rotating frame of each body"},
   {"radial", CFG_BOOL, AT(damping_radial), NULL, "false", ANY, "damp the radial component only"},
+};
+#define FACES "open|periodic|mirror|mirror_low|mirror_high"
+static const CfgRow boundary[] = {
+  {"x", CFG_CHOICE, AT(faces[0]), FACES, "open", ANY, "faces across x: none, periodic, mirrors at both or at one"},
+  {"y", CFG_CHOICE, AT(faces[1]), FACES, "open", ANY, "the same across y"},
+  {"z", CFG_CHOICE, AT(faces[2]), FACES, "open", ANY, "the same across z"},
+  {"low", CFG_VECTOR, AT(low), "m", "0,0,0", ANY, "where the lower faces are"},
+  {"high", CFG_VECTOR, AT(high), "m", "0,0,0", ANY, "where the upper faces are"},
 };
 static const CfgRow output[] = {
   {"log_every", CFG_INT, AT(log_every), NULL, "10", 1, 1e9, "steps between lines of conserved.tsv"},
@@ -142,8 +127,20 @@ static const CfgRow analysis[] = {
   {"window", CFG_INT, AT(analysis_window), NULL, "10", 2, 1000, "lines of bound.tsv that must agree"},
   {"after", CFG_REAL, AT(analysis_after), "s", "0", -1e300, 1e300, "time from which lines count for `converged`; 0 is the contact"},
 };
+/* Each of the list point_masses. */
+#define OF(MEMBER) offsetof(PointMass, MEMBER)
+static const CfgRow point[] = {
+  {"mass", CFG_REAL, OF(m), "kg", NULL, 0, 1e300, "a point mass: a star, a planet, a sink; the list has one group each"},
+  {"position", CFG_VECTOR, OF(x), "m", "0,0,0", ANY, "three lengths"},
+  {"velocity", CFG_VECTOR, OF(v), "m/s", "0,0,0", ANY, "three speeds"},
+  {"softening", CFG_REAL, OF(h), "m", "0", 0, 1e300, "its pull is softened within this distance, as between particles; 0: nowhere"},
+  {"fixed", CFG_BOOL, OF(fixed), NULL, "false", ANY, "it stays where it is"},
+  {"deaf", CFG_BOOL, OF(deaf), NULL, "false", ANY, "only other point masses pull on it, so momentum is not kept"},
+};
+enum { POINT_ROWS = sizeof point / sizeof *point };
 /* clang-format on */
 
+#define POINT_LIST "point_masses"
 #define GROUP(NAME, ROWS)                                                                          \
   {                                                                                                \
     NAME, ROWS, (int)(sizeof(ROWS) / sizeof *(ROWS))                                               \
@@ -156,8 +153,8 @@ static const Group groups[] = {GROUP("", top),
                                GROUP("heating", heating),
                                GROUP("smoothing", smoothing),
                                GROUP("step", step),
-                               GROUP("error", error),
                                GROUP("damping", damping),
+                               GROUP("boundary", boundary),
                                GROUP("output", output),
                                GROUP("analysis", analysis)};
 enum { GROUPS = sizeof groups / sizeof *groups };
@@ -175,16 +172,33 @@ void param_defaults(Param *p)
   config_destroy(&empty);
 }
 
+static int read_points(Param *p, const config_t *cfg, const char *path, Err *err)
+{
+  const config_setting_t *s = config_lookup(cfg, POINT_LIST);
+  if (!s) return 0;
+  if (!config_setting_is_list(s))
+    return cfg_where(err, s, path, "'" POINT_LIST "' must be a list ( { ... }, { ... } )");
+  if ((p->points = config_setting_length(s)) > PARAM_POINTS)
+    return cfg_where(err, s, path, "%d point masses, a run takes %d", p->points, PARAM_POINTS);
+  for (int k = 0; k < p->points; k++) {
+    const config_setting_t *e = config_setting_get_elem(s, (unsigned)k);
+    if (!config_setting_is_group(e))
+      return cfg_where(err, e, path, "'" POINT_LIST "' must hold groups { ... }");
+    if (cfg_read(e, point, POINT_ROWS, &p->point[k], NULL, 0, path, err)) return -1;
+  }
+  return 0;
+}
+
 int param_read(Param *p, const char *path, Err *err)
 {
-  const char *names[GROUPS];
+  const char *names[GROUPS] = {POINT_LIST};
   config_t cfg;
   int bad = 0;
   param_defaults(p);
   if (cfg_open(&cfg, path, err)) return -1;
-  for (int g = 1; g < GROUPS; g++) names[g - 1] = groups[g].name;
-  bad = cfg_read(config_root_setting(&cfg), groups[0].rows, groups[0].n, p, names, GROUPS - 1, path,
-                 err);
+  for (int g = 1; g < GROUPS; g++) names[g] = groups[g].name;
+  bad =
+      cfg_read(config_root_setting(&cfg), groups[0].rows, groups[0].n, p, names, GROUPS, path, err);
   for (int g = 1; g < GROUPS && !bad; g++) {
     const config_setting_t *s = config_lookup(&cfg, groups[g].name);
     if (s && !config_setting_is_group(s))
@@ -192,8 +206,9 @@ int param_read(Param *p, const char *path, Err *err)
     else if (s)
       bad = cfg_read(s, groups[g].rows, groups[g].n, p, NULL, 0, path, err);
   }
+  bad = bad || read_points(p, &cfg, path, err);
   config_destroy(&cfg);
-  return bad;
+  return bad ? -1 : 0;
 }
 
 int param_set(Param *p, const char *assignment, Err *err)
@@ -207,6 +222,8 @@ int param_set(Param *p, const char *assignment, Err *err)
   dot = strchr(key, '.');
   name = dot ? dot + 1 : key;
   if (dot) *dot = 0;
+  if (strcmp(key, POINT_LIST) == 0)
+    return err_set(err, "'" POINT_LIST "' is a list and can only be given in a file");
   for (int g = 0; g < GROUPS; g++) {
     if (strcmp(dot ? key : "", groups[g].name) == 0)
       return cfg_set(groups[g].rows, groups[g].n, p, name, equals + 1, err);
@@ -229,26 +246,40 @@ const char *param_text(const Param *p, const char *key, char *buf, int size)
   return NULL;
 }
 
+/* Lines `prefix.key value given|default` of all rows; standard NULL: all are given. */
+static int record_rows(Parts *parts, const char *prefix, const CfgRow *rows, int n,
+                       const void *from, const void *standard, Err *err)
+{
+  char value[128], other[128] = "", line[512];
+  char **grown = realloc(parts->parameter, (size_t)(parts->parameters + n) * sizeof *grown);
+  if (!grown) return err_set(err, "not enough memory");
+  parts->parameter = grown;
+  for (int r = 0; r < n; r++) {
+    cfg_text(&rows[r], from, value, sizeof value);
+    if (standard) cfg_text(&rows[r], standard, other, sizeof other);
+    snprintf(line, sizeof line, "%s%s%s\t%s\t%s", prefix, *prefix ? "." : "", rows[r].name, value,
+             strcmp(value, other) ? "given" : "default");
+    if (!(parts->parameter[parts->parameters] = strdup(line)))
+      return err_set(err, "not enough memory");
+    parts->parameters++;
+  }
+  return 0;
+}
+
 int param_record(const Param *p, Parts *parts, Err *err)
 {
   Param standard;
-  char value[128], other[128], line[512];
+  char prefix[64];
   param_defaults(&standard);
   for (int i = 0; i < parts->parameters; i++) free(parts->parameter[i]);
-  free(parts->parameter);
-  parts->parameter = calloc(128, sizeof *parts->parameter);
   parts->parameters = 0;
-  if (!parts->parameter) return err_set(err, "not enough memory");
   for (int g = 0; g < GROUPS; g++)
-    for (int r = 0; r < groups[g].n; r++) {
-      const CfgRow *row = &groups[g].rows[r];
-      cfg_text(row, p, value, sizeof value);
-      cfg_text(row, &standard, other, sizeof other);
-      snprintf(line, sizeof line, "%s%s%s\t%s\t%s", groups[g].name, *groups[g].name ? "." : "",
-               row->name, value, strcmp(value, other) ? "given" : "default");
-      if (!(parts->parameter[parts->parameters++] = strdup(line)))
-        return err_set(err, "not enough memory");
-    }
+    if (record_rows(parts, groups[g].name, groups[g].rows, groups[g].n, p, &standard, err))
+      return -1;
+  for (int k = 0; k < p->points; k++) {
+    snprintf(prefix, sizeof prefix, POINT_LIST "[%d]", k);
+    if (record_rows(parts, prefix, point, POINT_ROWS, &p->point[k], NULL, err)) return -1;
+  }
   return 0;
 }
 
@@ -262,17 +293,22 @@ static void cell(const char *text, const char *bar, FILE *to)
       fputc(*text, to);
 }
 
+static void print_rows(const char *prefix, const CfgRow *rows, int n, FILE *to)
+{
+  for (const CfgRow *row = rows; row < rows + n; row++) {
+    fprintf(to, "| `%s%s%s` | %s%s%s | ", prefix, *prefix ? "." : "", row->name,
+            row->value ? "`" : "", row->value ? row->value : "must be given",
+            row->value ? "`" : "");
+    cell(row->unit ? row->unit : row->type == CFG_BOOL ? "true|false" : "1", ", ", to);
+    fputs(" | ", to);
+    cell(row->meaning, "\\|", to);
+    fputs(" |\n", to);
+  }
+}
+
 void param_markdown(FILE *to)
 {
   fprintf(to, "| key | default | unit or choice | meaning |\n|---|---|---|---|\n");
-  for (int g = 0; g < GROUPS; g++)
-    for (int r = 0; r < groups[g].n; r++) {
-      const CfgRow *row = &groups[g].rows[r];
-      fprintf(to, "| `%s%s%s` | `%s` | ", groups[g].name, *groups[g].name ? "." : "", row->name,
-              row->value);
-      cell(row->unit ? row->unit : row->type == CFG_BOOL ? "true|false" : "1", ", ", to);
-      fputs(" | ", to);
-      cell(row->meaning, "\\|", to);
-      fputs(" |\n", to);
-    }
+  for (int g = 0; g < GROUPS; g++) print_rows(groups[g].name, groups[g].rows, groups[g].n, to);
+  print_rows(POINT_LIST, point, POINT_ROWS, to);
 }

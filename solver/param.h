@@ -9,10 +9,13 @@
 #include "../lib/part.h"
 
 enum { PARAM_CONTINUITY, PARAM_SUM, PARAM_MISCIBLE };
-enum { PARAM_FIXED, PARAM_DENSITY, PARAM_NEIGHBOURS, PARAM_OVERCORRECTED };
+enum { PARAM_FIXED, PARAM_DENSITY, PARAM_NEIGHBOURS };
 enum { PARAM_NONE, PARAM_TREE, PARAM_DIRECT };
 enum { PARAM_FULL, PARAM_ISENTROPIC, PARAM_FROZEN };
 enum { PARAM_MIXED, PARAM_DOUBLE };
+enum { PARAM_OPEN, PARAM_PERIODIC, PARAM_MIRROR, PARAM_MIRROR_LOW, PARAM_MIRROR_HIGH };
+
+enum { PARAM_POINTS = 32 };
 
 typedef struct {
   int integrator, kernel, precision, density, energy, strength, damage;
@@ -25,19 +28,19 @@ typedef struct {
   double deposit, deposit_centre[3], deposit_radius, deposit_begin, deposit_end;
   int deposit_profile, deposit_axis;
   int smoothing;
-  double neighbours, h_min, h_max, fewest, most, width;
-  double cfl, step_acceleration, step_density, step_error, step_min, step_max, step_first,
-      step_growth;
-  double step_energy, step_smoothing, step_stress, step_damage, step_distention, step_pressure,
-      energy_least, stress_least, damage_least;
-  double error_position, error_velocity, error_density, error_energy, error_stress, error_damage;
+  double neighbours, h_min, h_max;
+  double cfl, step_acceleration, step_density, step_error, step_min, step_max, step_points;
   double damping;
   int damping_radial;
+  int faces[3];
+  double low[3], high[3];
   int log_every;
   double checkpoint_every;
   double analysis_every, analysis_link, analysis_theta, analysis_virial, analysis_converged,
       analysis_after;
   int analysis_method, analysis_criterion, analysis_least, analysis_window;
+  PointMass point[PARAM_POINTS]; /* [points] */
+  int points;
 } Param;
 
 /* param_defaults: all settings at their defaults. */

@@ -190,11 +190,6 @@ int run_system(const RunOptions *o, const Param *par, Parts *parts, Err *err)
   if (rc >= 0 && r.out.most_outside > 0)
     err_warn("up to %.0f particles were outside the table of their equation of state: see run.log",
              r.out.most_outside);
-  if (rc >= 0 && r.out.most_held[0] + r.out.most_held[1] > 0)
-    err_warn(
-        "up to %.0f particles had the smallest h allowed, %.0f the largest (smoothing.min, max): "
-        "see conserved.tsv",
-        r.out.most_held[0], r.out.most_held[1]);
   if (rc >= 0 && o->profile) profile_print(&r.sim, r.sim.step - r.first_step, stderr);
   analysis_close(&r.analysis);
   output_close(&r.out);

@@ -41,17 +41,6 @@ Step sim_step(const Sim *sim, double dt)
   k.self = kernel_sigma(p->kernel, sim->s.dimension) * kernel_w(p->kernel, sim->s.dimension, 0);
   k.cfl = p->cfl, k.acceleration = p->step_acceleration;
   k.step_density = p->step_density;
-  k.limit[LIMIT_ENERGY] = p->step_energy, k.limit[LIMIT_SMOOTHING] = p->step_smoothing;
-  k.limit[LIMIT_STRESS] = p->step_stress, k.limit[LIMIT_DAMAGE] = p->step_damage;
-  k.limit[LIMIT_DISTENTION] = p->step_distention, k.limit[LIMIT_PRESSURE] = p->step_pressure;
-  for (int c = 0; c < LIMITS; c++) k.limited |= k.limit[c] > 0;
-  k.energy_least = p->energy_least, k.stress_least = p->stress_least;
-  k.damage_least = p->damage_least;
-  k.few = p->fewest * p->neighbours, k.many = p->most * p->neighbours, k.width = p->width;
-  k.dilation = sim->dilation;
-  k.error.x = p->error_position / p->step_error, k.error.v = p->error_velocity / p->step_error;
-  k.error.rho = p->error_density / p->step_error, k.error.u = p->error_energy / p->step_error;
-  k.error.s = p->error_stress / p->step_error, k.error.crack = p->error_damage / p->step_error;
   k.damping = p->damping, k.damping_radial = p->damping_radial;
   k.viscous = sim->viscous;
   k.fluid = (Fluid){p->shear, p->bulk, p->shakura, p->aspect, p->compression};
@@ -65,6 +54,20 @@ static void smoothing_range(Sim *sim, const Parts *p)
   double low = INFINITY, high = 0;
   for (long i = 0; i < p->n; i++) low = fmin(low, p->h[i]), high = fmax(high, p->h[i]);
   sim->par.h_min *= low, sim->par.h_max *= high;
+}
+
+/* The faces of the box. */
+static void set_bounds(Sim *sim, const Param *p)
+{
+  Bounds *b = &sim->bounds;
+  for (int d = 0; d < 3; d++) {
+    const int faces = p->faces[d];
+    const int both = faces == PARAM_PERIODIC ? BOUNDS_PERIODIC : BOUNDS_OPEN;
+    b->low[d] = faces == PARAM_MIRROR || faces == PARAM_MIRROR_LOW ? BOUNDS_MIRROR : both;
+    b->high[d] = faces == PARAM_MIRROR || faces == PARAM_MIRROR_HIGH ? BOUNDS_MIRROR : both;
+    b->lo[d] = p->low[d], b->hi[d] = p->high[d];
+    b->on |= faces != PARAM_OPEN;
+  }
 }
 
 static int open_common(Sim *sim, const Param *par, const Parts *p, const char *device, Err *err)
@@ -82,6 +85,7 @@ static int open_common(Sim *sim, const Param *par, const Parts *p, const char *d
   sim->materials = p->materials;
   sim->slots = integrator_of(par->integrator)->slots;
   sim->memory = integrator_of(par->integrator)->memory;
+  set_bounds(sim, par);
   sim->miscible = par->density == PARAM_MISCIBLE;
   if (!(sim->material = material_load(p, err))) return -1;
   for (int k = 0; k < p->materials; k++) {
@@ -97,7 +101,7 @@ static int open_common(Sim *sim, const Param *par, const Parts *p, const char *d
   sim->viscous = par->shear > 0 || par->bulk > 0 || par->shakura > 0 || par->compression > 0;
   sim->tensor = sim->solid || sim->viscous;
   sim->s.dimension = p->dimension;
-  return conflict_check(par, sim, err);
+  return points_open(sim, p, err) || conflict_check(par, sim, err) ? -1 : 0;
 }
 
 /* A porous particle without Distention must have the density of its bulk. */
@@ -138,12 +142,37 @@ static int hand_over(Sim *sim, const Parts *p, Err *err)
   return bad ? -1 : 0;
 }
 
+/* What has left the box comes back. */
+static void fold(Sim *sim)
+{
+  const Step k = sim_step(sim, 0);
+  if (sim->bounds.on) sim->b->pass(sim, PASS_FOLD, &k);
+}
+
+/* Nothing can be behind a mirror. */
+static int inside(const Bounds *b, const Parts *p, Err *err)
+{
+  double plane;
+  for (long i = 0; i < p->n && b->on; i++)
+    for (int d = 0; d < 3; d++)
+      if (bounds_beyond(b, d, p->x[3 * i + d], &plane))
+        return err_set(err, "particle %lld is at %c = %g m, behind the mirror at %g",
+                       (long long)p->id[i], "xyz"[d], p -> x[3 * i + d], plane);
+  return 0;
+}
+
 int sim_open(Sim *sim, const Param *par, const Parts *p, const char *device, Err *err)
 {
-  if (open_common(sim, par, p, device, err)) return sim_close(sim), -1;
-  smoothing_range(sim, p);
-  if (hand_over(sim, p, err) || integrator_of(sim->par.integrator)->start(sim, err))
+  memset(sim, 0, sizeof *sim);
+  if (p->points && par->points)
+    return err_set(err, "the input has %d point mass(es) already, and the settings list %d",
+                   p->points, par->points);
+  if (open_common(sim, par, p, device, err) || inside(&sim->bounds, p, err))
     return sim_close(sim), -1;
+  smoothing_range(sim, p);
+  if (hand_over(sim, p, err)) return sim_close(sim), -1;
+  fold(sim);
+  if (integrator_of(sim->par.integrator)->start(sim, err)) return sim_close(sim), -1;
   return 0;
 }
 
@@ -167,7 +196,7 @@ int sim_restart(Sim *sim, const Param *par, const Parts *p, const char *device, 
   if (open_common(sim, par, p, device, err)) return sim_close(sim), -1;
   if (part_need(p, "a dudt dqdt divv p cs s nact signal dcrack nngb", "checkpoint", err))
     return sim_close(sim), -1;
-  if ((sim->porous && part_need(p, "alpha dalpha", "checkpoint", err)) ||
+  if ((sim->porous && part_need(p, "alpha", "checkpoint", err)) ||
       (sim->heated && part_need(p, "T", "checkpoint", err)))
     return sim_close(sim), -1;
   sim->par.h_min = part_number(p, "run", "SmoothingMin"),
@@ -202,7 +231,7 @@ const char *sim_limit_name(int limit)
       LIMIT_NAMES(SIM_LIMIT)
 #undef SIM_LIMIT
           "output",
-      "error", "max", "first"};
+      "error", "max", "points"};
   return limit >= 0 && limit < LIMITS + 4 ? names[limit] : "?";
 }
 
@@ -216,10 +245,6 @@ static int limits_of(Sim *sim, Limits *l, Err *err)
   Step k = sim_step(sim, 0);
   char look[512];
   if (sim->b->limits(sim, &k, l, err)) return -1;
-  if (k.smoothing == PARAM_OVERCORRECTED && k.limit[LIMIT_SMOOTHING] > 0) { /* of this dilation */
-    k.dilation = l->dilation;
-    if (sim->b->limits(sim, &k, l, err)) return -1;
-  }
   if (l->bad < 0) return 0;
   backend_look(sim, l->bad, look, sizeof look);
   return err_set(err, "the state broke down at t = %.9g s, step %ld: %s: %s", sim->time, sim->step,
@@ -231,8 +256,11 @@ static int next_limits(Sim *sim, SimStep *next, Err *err)
 {
   Limits l;
   if (limits_of(sim, &l, err)) return -1;
-  next->dt = l.dt, next->limit = l.dt < INFINITY ? l.which : LIMITS + 2, next->id = l.id;
-  sim->dilation = l.dilation;
+  next->dt = INFINITY, next->limit = LIMITS + 2, next->id = -1;
+  for (int c = 0; c < LIMITS; c++)
+    if (l.dt[c] < next->dt) next->dt = l.dt[c], next->limit = c, next->id = l.id[c];
+  if (points_limit(sim) < next->dt)
+    next->dt = points_limit(sim), next->limit = LIMITS + 3, next->id = -1;
   return 0;
 }
 
@@ -259,8 +287,6 @@ int sim_advance(Sim *sim, double until, SimStep *done, Err *err)
     done->dt = sim->dt, done->limit = LIMITS + 1, done->id = -1;
   if (sim->par.step_max > 0 && sim->par.step_max < done->dt)
     done->dt = sim->par.step_max, done->limit = LIMITS + 2, done->id = -1;
-  if (sim->par.step_first > 0 && sim->step == 0 && sim->par.step_first < done->dt)
-    done->dt = sim->par.step_first, done->limit = LIMITS + 3, done->id = -1;
   if (!(done->dt > sim->par.step_min)) {
     if (done->id >= 0) backend_look(sim, done->id, look, sizeof look);
     return err_set(err, "the time step collapsed to %.3g s (%s) at t = %.9g s: %s", done->dt,
@@ -273,6 +299,7 @@ int sim_advance(Sim *sim, double until, SimStep *done, Err *err)
   dt = done->dt;
   plan_gravity(sim, dt, left);
   if (in->step(sim, &dt, err)) return -1;
+  fold(sim);
   if (dt < done->dt) done->limit = LIMITS + 1, done->id = -1;
   done->dt = sim->dt_before = dt;
   sim->time = dt >= left ? until : sim->time + dt;
@@ -283,7 +310,9 @@ int sim_advance(Sim *sim, double until, SimStep *done, Err *err)
 int sim_sums(Sim *sim, Sums *out, Err *err)
 {
   const struct integrator *in = integrator_of(sim->par.integrator);
-  return (in->potential && in->potential(sim, err)) || sim->b->sums(sim, out, err) ? -1 : 0;
+  if ((in->potential && in->potential(sim, err)) || sim->b->sums(sim, out, err)) return -1;
+  points_sums(sim, out);
+  return 0;
 }
 
 int sim_send(Sim *sim, Parts *p, Err *err)
@@ -291,10 +320,10 @@ int sim_send(Sim *sim, Parts *p, Err *err)
   Limits l;
   if (limits_of(sim, &l, err) || part_add(p, stored, err) ||
       (sim->par.gravity_every > 1 && part_add(p, "pull", err)) ||
-      (sim->porous && part_add(p, "alpha dalpha", err)) || (sim->heated && part_add(p, "T", err)) ||
+      (sim->porous && part_add(p, "alpha", err)) || (sim->heated && part_add(p, "T", err)) ||
       (sim->memory &&
        (part_add(p, memory, err) || part_set_number(p, "run", "LastStep", sim->dt_before, err))) ||
-      sim->b->store(sim, p, err))
+      points_store(sim, p, err) || sim->b->store(sim, p, err))
     return -1;
   p->time = sim->time;
   if (sim->par.gravity_every > 1 &&

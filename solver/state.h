@@ -8,6 +8,7 @@
 
 #include "../lib/fields.h"
 #include "../physics/material.h"
+#include "bounds.h"
 
 /* Work arrays: W(type, member, width, meaning). Those of the first list move with their particle
  * when the order changes. */
@@ -47,9 +48,11 @@ typedef struct {
 } Saved;
 
 typedef struct {
-  long n;
+  long n;         /* particles */
+  long all, room; /* and their images behind them (x, y, h, ha, m, id); rows there is room for */
+  Image *image;   /* [room - n]; NULL: there are none */
+  Bounds bounds;
   int dimension;
-  double h_min, h_max;      /* range of h [m]; 0, INFINITY: h does not change */
   int rare;                 /* any material has laws that few runs need (material_rare) */
   const Material *material; /* [materials], indexed by mat */
   const double *flaw;       /* thresholds of all particles, ascending within one */

@@ -13,14 +13,14 @@ setup() {
 # A program that notes its call, and writes its arguments to the file after -o, or to stdout.
 mock() {
   mkdir -p "$mock"
-  for name in mksphere relax weibull collide solver fof clumps render conserved histo; do
+  for name in mksphere relax weibull collide solver fof clumps render conserved histo track; do
     { echo '#!/bin/bash'
       echo 'name=${0##*/}; echo "$name $*" >>"$CALLS"'
       echo '[ "$name" = "$FAILING" ] && { echo "$name: no" >&2; exit ${CODE:-1}; }'
       cat; } <<'MOCK' >"$mock/$name"
 to=/dev/stdout all="$*"
 [[ $name == relax || $name == weibull ]] && all="$all $(cat)"
-while [ $# -gt 0 ]; do [ "$1" = -o ] && to=$2; shift; done
+while [ $# -gt 0 ]; do [[ $1 == -o || $1 == -p ]] && to=$2; shift; done
 case "$name $all" in
 solver*)
   printf '# step\ttime[s]\tE_kinetic[J]\tE_internal[J]\tE_potential[J]\tE_total[J]\tp_x[kg*m/s]\tp_y[]\tp_z[]\tL_x[]\tL_y[]\tL_z[]\n' >"$to/conserved.tsv"
@@ -44,12 +44,13 @@ MOCK
   done
 }
 
-study() { make -s -f pipelines/ceres.mk BIN="$mock" N=100 OUT="$OUT" "$@"; }
+study() { make -s -f pipelines/ceres.mk BIN="$mock" N=100 OUT="$OUT" LIBRARY="$OUT/bodies" "$@"; }
 # The programs called since the last look, each once, in the order of the alphabet.
 called() { [ ! -f "$CALLS" ] || cut -d' ' -f1 "$CALLS" | sort -u | tr '\n' ' '; rm -f "$CALLS"; }
 expect() { [ "$1" = "$2" ] || { echo "expected '$1', got '$2'"; return 1; }; }
-everything='clumps collide conserved fof histo mksphere relax render solver weibull '
-analysis='clumps conserved fof histo render '
+words() { printf '%s\n' "$@" | sort | tr '\n' ' '; }
+everything='clumps collide conserved fof histo mksphere relax render solver track weibull '
+analysis='clumps conserved fof histo render track '
 
 @test "a study is made once, and nothing of it twice" {
   mock
@@ -63,9 +64,9 @@ analysis='clumps conserved fof histo render '
 @test "a changed variable remakes what depends on it" {
   mock
   study && called
-  study LEAST=9 && expect 'fof histo render ' "$(called)"
-  study LEAST=9 EVERY=10 && expect "${analysis}solver " "$(called)"
-  study LEAST=9 EVERY=10 DISTANCE=9000 && expect "${analysis/fof/collide fof}solver " "$(called)"
+  study LEAST=9 && expect 'fof histo render track ' "$(called)"
+  study LEAST=9 EVERY=10 && expect "$(words $analysis solver)" "$(called)"
+  study LEAST=9 EVERY=10 DISTANCE=9000 && expect "$(words $analysis collide solver)" "$(called)"
   study LEAST=9 EVERY=10 DISTANCE=9000 ICE=ice_lange
   grep -c '^mksphere' "$CALLS" | grep -qx 1 # the body of basalt stays
 }
@@ -91,7 +92,7 @@ analysis='clumps conserved fof histo render '
 @test "a step that fails leaves no result and stops the study" {
   mock
   FAILING=relax run study
-  [ "$status" != 0 ] && [ ! -e "$OUT/N100-s1/target.h5" ]
+  [ "$status" != 0 ] && [ ! -e "$OUT/bodies/ceres-n61-s11.h5" ]
   called
   FAILING=fof run study
   [ "$status" != 0 ] && [ ! -e "$run_dir/fragments.tsv" ] && [ -e "$run_dir/run/end" ]
@@ -106,7 +107,7 @@ analysis='clumps conserved fof histo render '
   echo kept >"$run_dir/run/checkpoint.h5"
   called
   study && [ -e "$run_dir/run/checkpoint.h5" ]
-  grep -q '^solver --restart' "$CALLS" && expect "${analysis}solver " "$(called)"
+  grep -q '^solver --restart' "$CALLS" && expect "$(words $analysis solver)" "$(called)"
   study END=3000 && [ -e "$run_dir/run/checkpoint.h5" ]              # a later end continues
   study END=100 && [ ! -e "$run_dir/run/checkpoint.h5" ]             # an earlier one cannot
   echo kept >"$run_dir/run/checkpoint.h5"

@@ -130,7 +130,7 @@ static GravityLab *lab_new(Cloud c)
   frexp(c.h[0], &e), l->cuda.unit.length = ldexp(1, e);
   frexp(c.m[0], &e), l->cuda.unit.mass = ldexp(1, e);
   l->sim.own = &l->cuda, l->sim.pull_due = 1;
-  l->sim.s.n = c.n, l->sim.s.dimension = 3;
+  l->sim.s.n = l->sim.s.all = l->sim.s.room = c.n, l->sim.s.dimension = 3;
   l->sim.par.G = LAB_G, l->sim.par.gravity = PARAM_TREE, l->sim.par.theta = 0.7;
   Root root = {{l->host.origin[0], l->host.origin[1], l->host.origin[2]}, l->host.edge};
   l->cuda.root = lab_up(l, &root, 1);

@@ -43,3 +43,14 @@ put() {
     "$2" $((1 + ($3 > 1))) "$(wc -l <"$2.txt")" "$([ "$3" = 1 ] || echo " $3")" >"$2.cfg"
   h5import "$2.txt" -c "$2.cfg" -o "$1"
 }
+
+# reads MODULES CODE ARGUMENTS...: python3 with these modules runs it; without them the test is skipped, unless $BRECCIA_READERS names
+# the module, as CI does.
+reads() {
+  local module modules=$1 code=$2
+  shift 2
+  for module in $modules; do
+    python3 -c "import $module" 2>log || [[ " $BRECCIA_READERS " == *" $module "* ]] || skip "no python3 with $module"
+  done
+  PYTHONPATH=$BATS_TEST_DIRNAME/../python PYTHONDONTWRITEBYTECODE=1 python3 -W ignore - "$@" <<<"$code"
+}

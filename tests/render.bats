@@ -73,6 +73,77 @@ differ() { if cmp -s "$1" "$2"; then return 1; fi; }
   render --size 600x400 -o 2.png a.h5 b.h5 two.h5 # as square as it gets
 }
 
+@test "an expression is the field that it equals" {
+  render --size 320x200 -c Velocities.x -L v -o 1.png two.h5
+  render --size 320x200 -c '(2*Velocities.x + |Velocities|*0)/2' -L v -o 2.png two.h5
+  cmp 1.png 2.png
+}
+
+@test "only the particles that are selected" {
+  render --size 320x200 -e 3000km -C body:0 -o 1.png two.h5
+  render --size 320x200 -e 3000km -C body:0 -S 'BodyID == 0' -o 2.png two.h5
+  differ 1.png 2.png
+  render --size 320x200 -e 3000km -C body:0 -S "MaterialID == 'ice' || MaterialID == \"basalt\"" -o 2.png two.h5
+  cmp 1.png 2.png
+  render --size 320x200 -e 3000km -C body:0 -S 'Density > 0 && Coordinates.x < 1au' -o 2.png two.h5
+  cmp 1.png 2.png
+}
+
+@test "the camera: planes are directions; sides are cut away; perspective" {
+  for same in xy:-90deg,90deg xz:-90deg,0 yz:0,0deg,0; do
+    render --size 320x200 --plane ${same%:*} -o 1.png two.h5
+    render --size 320x200 --from=${same#*:} -o 2.png two.h5
+    cmp 1.png 2.png
+  done
+  render --size 320x200 -f 30deg,20deg -o 1.png two.h5
+  render --size 320x200 -f 30deg,20deg,10deg -o 2.png two.h5
+  render --size 320x200 -f 30deg,20deg -a x,y -o 3.png two.h5
+  render --size 320x200 -f 30deg,20deg -a x,y,z -F 30deg -o 4.png two.h5
+  render --size 320x200 -f 30deg,20deg -v projection -F 30deg -o 5.png two.h5
+  for k in 2 3 4 5; do differ 1.png $k.png; done
+}
+
+@test "several fields, each with colours of its own" {
+  render --size 800x600 -c MaterialID -c Density -c '|Velocities|' -r : -r 0:3g/cc -L '' -L rho -o 1.png two.h5
+  [ "$(size 1.png)" = "800 600" ]
+  render --size 800x600 -c Density -c MaterialID -o 2.png two.h5 a.h5 b.h5 # a row for each
+  render --size 800x600 -c Density -c MaterialID --panels 3x2 -o 3.png two.h5 a.h5 b.h5
+  differ 2.png 3.png
+}
+
+# An ffmpeg that writes down what it is asked for, and how much it reads.
+mock_ffmpeg() {
+  mkdir -p mock
+  printf '#!/bin/bash\necho "$@" >said\nwc -c >count\nfor last; do :; done\ncp count "$last"\nexit ${BAD:-0}\n' >mock/ffmpeg
+  chmod +x mock/ffmpeg
+}
+
+@test "a movie: every snapshot a frame, with common colours" {
+  mock_ffmpeg
+  PATH=$PWD/mock:$PATH render --size 321x200 --movie 25 -c Density -o m.mp4 a.h5 b.h5 two.h5
+  [ "$(<count)" = $((320 * 200 * 3 * 3)) ] && [ "$(<m.mp4)" = "$(<count)" ]
+  grep -q -- '-s 320x200 -framerate 25 -i - .*-c:v libx264 .*-f mp4 ' said
+  PATH=$PWD/mock:$PATH render --size 320x200 --movie 5 -o m.gif a.h5
+  grep -q -- 'paletteuse .*-f gif ' said
+}
+
+@test "a movie by ffmpeg itself" {
+  command -v ffprobe >/dev/null || skip "no ffmpeg"
+  render --size 320x200 --movie 10 -c Density -o real.mp4 a.h5 b.h5 two.h5
+  [ "$(ffprobe -v error -count_frames -show_entries stream=width,height,nb_read_frames -of csv=p=0 real.mp4)" = 320,200,3 ]
+}
+
+@test "a movie that fails leaves nothing" {
+  mock_ffmpeg
+  export PATH="$PWD/mock:$PATH"
+  BAD=3 fails 1 "ffmpeg could not write" render --movie 5 -o x.mp4 a.h5
+  fails 1 "'none.h5'" render --movie 5 -o x.mp4 a.h5 none.h5
+  only=$(dirname "$(command -v render)") && rm -r mock
+  [ ! -x "$only/ffmpeg" ]
+  fails 1 "needs ffmpeg, which is not there" env PATH="$only" render --movie 5 -o x.mp4 a.h5
+  [ -z "$(find . -name '.x.mp4*')" ]
+}
+
 fails() {
   local want=$1 text=$2
   shift 2
@@ -80,7 +151,7 @@ fails() {
   run "$@"
   echo "$status: $output"
   [ "$status" = "$want" ] && [ "${#lines[@]}" = 1 ] && [[ $output == "render: "*"$text"* ]] && [ ! -e x.png ] &&
-    [ -z "$(find . -name '*x.png*')" ]
+    [ -z "$(find . -name '*x.png*' -o -name '*x.mp4*')" ]
 }
 
 @test "bad input is one line, and no picture" {
@@ -108,4 +179,21 @@ fails() {
   fails 2 "names kinds" render -r 0:1 -o x.png two.h5
   fails 2 "starts above 0" render -c Density -l -r 0:1 -o x.png two.h5
   fails 2 "--extent" render -e 0 -o x.png two.h5
+  fails 2 "--color: '2*(Density': a ')' is missing at the end" render -c '2*(Density' -o x.png two.h5
+  fails 1 "'kg/m^3' and 'm/s' do not go together" render -c 'Density + |Velocities|' -o x.png two.h5
+  fails 1 "'BodyID > 3' holds for no particle" render -S 'BodyID > 3' -o x.png two.h5
+  fails 2 "--select" render -S 'BodyID >' -o x.png two.h5
+  fails 2 "exclude each other" render -p xy -f 0,0 -o x.png two.h5
+  fails 2 "--from" render -f 30deg -o x.png two.h5
+  fails 2 "a slice is flat" render -v slice -F 30deg -o x.png two.h5
+  fails 2 "--perspective" render -F 170deg -o x.png two.h5
+  fails 2 "side 'x' faces away" render -a x -f 180deg,10deg -o x.png two.h5
+  fails 2 "'q' is not up to three of" render -a q -o x.png two.h5
+  fails 2 "--cut-away is for --view cut" render -a z -v surface -o x.png two.h5
+  fails 2 "--offset is for" render -O 1km -v surface -o x.png two.h5
+  fails 2 "--range: more than there are of --color" render -c Density -r : -r : -o x.png two.h5
+  fails 2 "no room for 4 panels" render -c Density -c BodyID -P 3x1 -o x.png a.h5 b.h5
+  fails 2 "must end in .mp4" render --movie 5 -o x.avi two.h5
+  fails 2 "'x.mp4' needs --movie" render -o x.mp4 two.h5
+  fails 2 "must be positive" render --movie 0 -o x.mp4 two.h5
 }

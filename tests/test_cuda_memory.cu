@@ -82,13 +82,13 @@ static void as_announced(void **state)
     Sim sim = open_kind(&k, p);
     Cuda *c = cuda_of(&sim);
     const double said = (double)cuda_bytes(&sim, p), taken = (double)c->bytes;
-    sim.s.n = 100000000, c->ample = 0;
+    sim.s.n = sim.s.room = 100000000, c->ample = 0;
     const double each = (double)(cuda_bytes(&sim, p)) * 1e-8;
     print_message("%s: said %.0f, taken %.0f B a particle; 1e8: %.0f\n", k.set[0],
                   said / (double)p->n, taken / (double)p->n, each);
     assert_true(fabs(said - taken) < 0.02 * said);
     assert_true(each < k.most);
-    sim.s.n = p->n;
+    sim.s.n = sim.s.room = p->n;
     sim_close(&sim);
   }
   part_free(p);

@@ -27,11 +27,12 @@ static long see(const Parts *p, int whole, float wanted)
 {
   float numbers[] = {0, 1, 2, 3};
   Field f = {.value = numbers};
+  const Cut nothing = {.planes = 0};
   Camera c = {.w = W, .h = W, .scale = W / 10.};
   Window win = {W, W, W, value, shade};
   long n = 0;
   camera_plane(&c, "xy");
-  assert_int_equal(cut_sample(&win, p, &f, &c, whole, NULL), 0);
+  assert_int_equal(cut_sample(&win, p, &f, &c, whole ? &nothing : NULL, NULL), 0);
   for (int k = 0; k < W * W; k++) n += value[k] == wanted;
   return n;
 }
@@ -44,15 +45,15 @@ static long see(const Parts *p, int whole, float wanted)
 static void one_sphere(void **state)
 {
   (void)state;
-  const double z[] = {-5, -0.5, 0, 0.5, 0.9, 1.1};
+  const double z[] = {-5, -0.5, 0, 0.5, 0.9, 1.3};
   for (int k = 0; k < 6; k++) {
     const double x[1][3] = {{0, 0, z[k]}};
     Parts *p = spheres(1, x);
-    double seen = z[k] <= 0 ? 1 : z[k] < 1 ? 1 - z[k] * z[k] : 0, face = fmax(0, 1 - z[k] * z[k]);
+    double face = fmax(0, FACE * FACE - z[k] * z[k]), seen = fmax(face, z[k] <= 0);
     ABOUT(see(p, 0, 0), AREA(seen));
     long flat = 0;
     for (int i = 0; i < W * W; i++) flat += value[i] == 0 && shade[i] == 1;
-    ABOUT(flat, AREA(face));
+    ABOUT(flat, AREA(face));      /* cut, they are somewhat larger */
     ABOUT(see(p, 1, 0), AREA(1)); /* uncut */
     part_free(p);
   }
@@ -91,9 +92,52 @@ static void order_does_not_matter(void **state)
   }
 }
 
+/* Area in px of a quarter of a disc of radius FACE in the plane x = 0 as a pinhole at `eye` (1, 1,
+ * 1)/sqrt(3) sees it: dA f^2 n.(eye - x)/Z^3. */
+static double quarter(double eye, double scale)
+{
+  double sum = 0, e = eye / sqrt(3.), step = FACE / 200;
+  for (int i = 0; i < 200; i++)
+    for (int j = 0; j < 200; j++) {
+      double y = (i + 0.5) * step, z = (j + 0.5) * step, depth = eye - (y + z) / sqrt(3.);
+      if (y * y + z * z < FACE * FACE) sum += step * step * e / pow(depth, 3);
+    }
+  return sum * pow(scale * eye, 2);
+}
+
+/* An octant taken out of one big sphere, seen along the diagonal. */
+static void wedges(void **state)
+{
+  (void)state;
+  const double x[1][3] = {{0, 0, 0}}, eye[2] = {1e6, 30};
+  const Cut octant = {.normal = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, .planes = 3};
+  Parts *p = spheres(1, x);
+  float numbers[] = {0};
+  Field f = {.value = numbers};
+  for (int k = 0; k < 2; k++) {
+    Camera c = {.w = W, .h = W, .scale = W / 3.};
+    Window win = {W, W, W, value, shade};
+    long faces = 0, all = 0;
+    float bright[3] = {0};
+    camera_turn(&c, atan(1), atan(sqrt(0.5)), 0);
+    if (k) c.distance = eye[k];
+    assert_int_equal(cut_sample(&win, p, &f, &c, &octant, NULL), 0);
+    for (int a = 0; a < 9; a++) bright[a % 3] += (float)c.axis[a / 3][a % 3] * lamp[a / 3];
+    for (int i = 0; i < W * W; i++) {
+      all += value[i] == 0;
+      for (int a = 0; a < 3; a++)
+        faces += value[i] == 0 && fabsf(shade[i] - 0.8f - 0.2f * bright[a]) < 1e-5f;
+    }
+    assert_true(fabs((double)all / (3.14159 * c.scale * c.scale) - 1) < 0.02);
+    assert_true(fabs((double)faces / (3 * quarter(eye[k], c.scale)) - 1) < 0.01);
+  }
+  part_free(p);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(one_sphere), cmocka_unit_test(two_spheres),
-                                     cmocka_unit_test(order_does_not_matter)};
+                                     cmocka_unit_test(order_does_not_matter),
+                                     cmocka_unit_test(wedges)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,6 +6,7 @@
 #include <cmocka.h>
 #include <string.h>
 #include <unistd.h>
+#include "lib/pick.h"
 #include "lib/rng.h"
 #include "tools/render/camera.c"
 #include "tools/render/colour.c"
@@ -160,44 +161,120 @@ static void projection_keeps_mass(void **state)
   part_free(p);
 }
 
-/* Right, up and towards the viewer are right-handed; a mean stays between the extremes; 99 % are in
- * the picture. */
+/* The column of a homogeneous ball is its chord, also off the axis and seen from anywhere. */
+static void columns_of_a_ball(void **state)
+{
+  (void)state;
+  enum { M = 40, W = 64 };
+  Parts *p = part_new(M * M * M);
+  float value[W * W], shade[W * W];
+  long n = 0;
+  assert_int_equal(part_add(p, "id x m rho h body", NULL), 0);
+  for (long i = 0; i < p->n; i++) {
+    double x[3] = {(double)(i % M), (double)(i / M % M), (double)(i / M / M)}, r2 = 0;
+    for (int a = 0; a < 3; a++) x[a] = 2 * (x[a] + 0.5) / M - 1, r2 += x[a] * x[a];
+    if (r2 > 1) continue;
+    memcpy(p->x + 3 * n, x, sizeof x);
+    p->id[n] = n, p->m[n] = 3 * pow(2. / M, 3), p->rho[n] = 3, p->h[n] = 2.3 * 2 / M, n++;
+  }
+  p->n = n;
+  Camera c = {.w = W, .h = W, .scale = W / 2.4};
+  Window win = {W, W, W, value, shade};
+  camera_turn(&c, 0.4, 0.7, 0.2);
+  assert_int_equal(project_sample(&win, p, &(Field){0}, &c, NULL), 0);
+  for (int k = 0; k < W * W; k++) {
+    double x = (k % W + 0.5 - W / 2.) / c.scale, y = (k / W + 0.5 - W / 2.) / c.scale,
+           r2 = x * x + y * y;
+    if (r2 < 0.6 && fabs(value[k] / (6 * sqrt(1 - r2)) - 1) > 0.035)
+      fail_msg("%g: %g", r2, value[k] / (6 * sqrt(1 - r2)));
+    if (r2 > 1.3) assert_true(isnan(value[k]));
+  }
+  part_free(p);
+}
+
+/* What a camera shows of a point at r from the centre, along axes that are built otherwise: towards
+ * the viewer; z less its part along that; and their cross product. */
+static void view_of(double azimuth, double elevation, const double r[3], double seen[3])
+{
+  double out[3] = {cos(elevation) * cos(azimuth), cos(elevation) * sin(azimuth), sin(elevation)},
+         up[3], right[3], size = 0;
+  for (int a = 0; a < 3; a++) up[a] = (a == 2) - out[2] * out[a], size += up[a] * up[a];
+  for (int a = 0; a < 3; a++) up[a] /= sqrt(size);
+  for (int a = 0; a < 3; a++)
+    right[a] = up[(a + 1) % 3] * out[(a + 2) % 3] - up[(a + 2) % 3] * out[(a + 1) % 3];
+  memset(seen, 0, 3 * sizeof *seen);
+  for (int a = 0; a < 3; a++)
+    seen[0] += right[a] * r[a], seen[1] += up[a] * r[a], seen[2] += out[a] * r[a];
+}
+
+static void directions(void **state)
+{
+  (void)state;
+  const double centre[3] = {3, -1, 2};
+  for (int k = 0; k < 200; k++) {
+    double az = 6 * rng_uniform(7, (uint64_t)k, 0), el = 3 * rng_uniform(7, (uint64_t)k, 1) - 1.5,
+           u, v, depth, x[3], r[3], seen[3];
+    Camera c = {.w = 200, .h = 100, .scale = 10, .offset = 0.5};
+    camera_turn(&c, az, el, 0);
+    for (int a = 0; a < 3; a++)
+      r[a] = rng_uniform(7, (uint64_t)k, (uint32_t)a + 2) - 0.5,
+      x[a] = r[a] + (c.centre[a] = centre[a]);
+    view_of(az, el, r, seen);
+    assert_true(camera_see(&c, x, &u, &v, &depth) == 1);
+    assert_true(fabs(u - 100 - 10 * seen[0]) < 1e-9 && fabs(v - 50 + 10 * seen[1]) < 1e-9);
+    assert_true(fabs(depth - 10 * (seen[2] - 0.5)) < 1e-9);
+    c.distance = 4; /* nearer is larger: similar triangles */
+    double zoom = camera_see(&c, x, &u, &v, &depth);
+    assert_true(fabs(zoom - 4 / (4 - seen[2])) < 1e-12 &&
+                fabs(u - 100 - 10 * zoom * seen[0]) < 1e-9);
+    camera_turn(&c, az, el, acos(0)); /* rolled clockwise by a right angle: what was up is right */
+    camera_see(&c, x, &u, &v, &depth);
+    assert_true(fabs(u - 100 - 10 * seen[1]) < 1e-9 && fabs(v - 50 - 10 * seen[0]) < 1e-9);
+    for (int a = 0; a < 3; a++) x[a] = c.centre[a] + 5 * c.axis[2][a]; /* behind an eye at 4 */
+    c.distance = 4;
+    assert_true(camera_see(&c, x, &u, &v, &depth) == 0);
+  }
+}
+
+/* The planes are exact; 99 % are in the picture. */
 static void camera(void **state)
 {
   (void)state;
   const char *const planes[] = {"xy", "xz", "yz"};
+  static const double axes[3][3][3] = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                                       {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}},
+                                       {{0, 1, 0}, {0, 0, 1}, {1, 0, 0}}};
   Parts *p = cloud(4000);
   Err err;
   for (int k = 0; k < 3; k++) {
     Camera c = {.w = 200, .h = 100, .scale = 10};
     camera_plane(&c, planes[k]);
-    double u, v, depth, seen = 0, mass = 0, x[3][3] = {{0}};
-    x[0][c.right] = x[1][c.up] = 1, x[2][c.out] = c.sign;
-    for (int a = 0; a < 3; a++) {
-      camera_see(&c, x[a], &u, &v, &depth);
-      assert_true(u == 100 + 10 * (a == 0) && v == 50 - 10 * (a == 1) && depth == 10 * (a == 2));
-      int b = (a + 1) % 3, d = (a + 2) % 3; /* r_a = r_b x r_d */
-      for (int e = 0; e < 3; e++) {
-        int f = (e + 1) % 3, g = (e + 2) % 3;
-        assert_true(x[a][e] == x[b][f] * x[d][g] - x[b][g] * x[d][f]);
-      }
-    }
-    assert_int_equal(camera_centre(&c, p, "com", "a", &err), 0);
-    c.scale = c.w / camera_extent(&c, p);
+    double u, v, depth, seen = 0, mass = 0;
+    for (int a = 0; a < 3; a++)
+      for (int b = 0; b < 3; b++) assert_true(c.axis[a][b] == axes[k][a][b]);
+    assert_int_equal(pick_centre(c.centre, p, "com", "a", &err), 0);
+    c.scale = c.w / camera_extent(&c, p, 0);
     for (long i = 0; i < p->n; i++) {
       camera_see(&c, p->x + 3 * i, &u, &v, &depth);
       mass += p->m[i], seen += u >= 0 && u < 200 && v >= 0 && v < 100 ? p->m[i] : 0;
     }
     assert_true(seen >= 0.99 * mass);
+    double extent = camera_extent(&c, p, 0.5); /* of an eye that sees 53 degrees */
+    c.distance = extent, c.scale = c.w / extent, seen = 0;
+    for (long i = 0; i < p->n; i++) {
+      double zoom = camera_see(&c, p->x + 3 * i, &u, &v, &depth);
+      seen += zoom > 0 && u >= 0 && u < 200 && v >= 0 && v < 100 ? p->m[i] : 0;
+    }
+    assert_true(seen >= 0.99 * mass);
   }
   Camera c = {0};
-  assert_int_equal(camera_centre(&c, p, "1km,-2m,3e3", "a", &err), 0);
+  assert_int_equal(pick_centre(c.centre, p, "1km,-2m,3e3", "a", &err), 0);
   assert_true(c.centre[0] == 1000 && c.centre[1] == -2 && c.centre[2] == 3000);
   const char *const wrong[] = {
       "1,2", "1,2,3,4", "", "1kg,2,3", "body:", "body:x", "body:2", "clump:1", "con"};
   for (int k = 0; k < 9; k++) {
     *err.text = 0;
-    assert_int_equal(camera_centre(&c, p, wrong[k], "a.h5", &err), -1);
+    assert_int_equal(pick_centre(c.centre, p, wrong[k], "a.h5", &err), -1);
     assert_true(*err.text);
   }
   part_free(p);
@@ -205,9 +282,13 @@ static void camera(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(uniform_maps),          cmocka_unit_test(materials_have_their_colours),
-      cmocka_unit_test(png_round_trip),        cmocka_unit_test(letters),
-      cmocka_unit_test(projection_keeps_mass), cmocka_unit_test(camera)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(uniform_maps),
+                                     cmocka_unit_test(materials_have_their_colours),
+                                     cmocka_unit_test(png_round_trip),
+                                     cmocka_unit_test(letters),
+                                     cmocka_unit_test(projection_keeps_mass),
+                                     cmocka_unit_test(directions),
+                                     cmocka_unit_test(camera),
+                                     cmocka_unit_test(columns_of_a_ball)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

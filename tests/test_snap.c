@@ -77,6 +77,11 @@ static Parts *sample(void)
   part_set_number(p, "collision", "ContactTime", 0, &err);
   part_set_number(p, "body", "Radius0", 470e3, &err);
   part_set_number(p, "run", "Step", 17, &err);
+  p->point = calloc(2, sizeof *p->point), p->points = 2;
+#define SAMPLE_POINT(TYPE, MEMBER, ...)                                                            \
+  snaps_fill(&p->point[k].MEMBER, sizeof p->point->MEMBER, &seed);
+  for (int k = 0; k < 2; k++) { POINTMASS_FIELDS(SAMPLE_POINT) }
+#undef SAMPLE_POINT
   return p;
 }
 
@@ -112,6 +117,11 @@ static void assert_names_equal(const Parts *a, const Parts *b)
   }
   assert_true(a->body_info[0].value == b->body_info[0].value);
   assert_true(a->runs == b->runs && a->run[0].value == b->run[0].value);
+  assert_int_equal(a->points, b->points);
+#define SAME_POINT(TYPE, MEMBER, ...)                                                              \
+  assert_memory_equal(&a->point[k].MEMBER, &b->point[k].MEMBER, sizeof a->point->MEMBER);
+  for (int k = 0; k < a->points; k++) { POINTMASS_FIELDS(SAME_POINT) }
+#undef SAME_POINT
 }
 
 static void all_comes_back(void **state)

@@ -68,7 +68,7 @@ static inline TreeLab *tree_lab_open(const Cloud *c, const long *row)
   l->n = c->n, l->parts = p;
   param_defaults(&sim->par);
   sim->materials = p->materials, sim->slots = 1, sim->own = &l->cuda, sim->pull_due = 1;
-  sim->s.n = c->n, sim->s.dimension = 3;
+  sim->s.n = sim->s.all = sim->s.room = c->n, sim->s.dimension = 3;
   CHECK(cudaStreamCreateWithFlags(&l->cuda.stream, cudaStreamNonBlocking));
   if (launch_failed(error, &err) || !(sim->material = material_load(p, &err)) ||
       cuda_state_open(sim, p, &err) || cuda_order_open(sim, &err) || cuda_tree_open(sim, &err) ||

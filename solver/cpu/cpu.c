@@ -75,7 +75,7 @@ static void cpu_close(Sim *sim)
   if (!c) return;
   tree_free(&c->tree);
   ngb_free(&c->ngb);
-  free(c->order), free(c->record), free(c->scratch), free(c->flaw);
+  free(c->order), free(c->record), free(c->scratch), free(c->flaw), free(sim->s.image);
   free(c);
   sim->own = NULL;
   free_state(&sim->s);
@@ -90,13 +90,13 @@ static int cpu_open(Sim *sim, const Parts *p, Err *err)
   sim->own = c;
   snprintf(sim->about, sizeof sim->about, "cpu, %d threads", omp_get_max_threads());
   memset(&sim->s, 0, sizeof sim->s);
-  sim->s.n = p->n;
+  sim->s.n = sim->s.all = sim->s.room = p->n;
+  sim->s.bounds = sim->bounds;
   sim->s.dimension = p->dimension;
   sim->s.rare = sim->rare;
-  backend_range(sim);
   sim->s.material = sim->material;
   c->order = malloc((n + 1) * sizeof *c->order);
-  c->record = malloc((n + 1) * 22 * sizeof(double));
+  c->record = malloc((n + 1) * CPU_RECORD * sizeof(double));
   c->share = (n + 1) * 9 * sizeof(double);
   c->scratch = malloc(c->share * (size_t)omp_get_max_threads());
   c->run.sigma = kernel_sigma(sim->par.kernel, p->dimension);
@@ -172,16 +172,20 @@ static int cpu_search(Sim *sim, Err *err)
 {
   Cpu *c = sim->own;
   State *s = &sim->s;
-  double *reach = c->record; /* the larger of both h: at x a pair has h, at y ha */
+  double *reach; /* the larger of both h: at x a pair has h, at y ha */
   int bad;
   backend_begin(sim, TIMER_ORDER);
   /* Errors of the tree that stay the same from step to step pull a body as a whole: another cube
    * every few steps keeps them from adding up. */
   c->tree.shift = hilbert_shift(sim->step);
-  bad = tree_order(s->n, s->x, s->id, c->tree.shift, c->order, err);
+  bad = cpu_images_find(sim, err);
+  c->tree.split = s->all > s->n ? s->n : 0;
+  bad = bad || tree_order_parts(s->all, c->tree.split, s->x, s->id, c->tree.shift, c->order, err);
   if (!bad) reorder_all(sim);
-  for (long i = 0; i < s->n; i++) reach[i] = s->ha[i] > s->h[i] ? s->ha[i] : s->h[i];
-  bad = bad || tree_build(&c->tree, s->n, s->x, s->m, reach, err);
+  bad = bad || cpu_images_order(sim, err);
+  reach = c->record;
+  for (long i = 0; i < s->all; i++) reach[i] = s->ha[i] > s->h[i] ? s->ha[i] : s->h[i];
+  bad = bad || tree_build(&c->tree, s->all, s->x, s->m, reach, err);
   backend_end(sim, TIMER_ORDER);
   if (bad) return -1;
   backend_begin(sim, TIMER_SEARCH);
@@ -220,11 +224,13 @@ static int pull(Sim *sim, Err *err)
 static int cpu_gravity(Sim *sim, Err *err)
 {
   const State *s = &sim->s;
+  const int pulls = sim->par.gravity != PARAM_NONE;
   int bad;
-  if (sim->par.gravity == PARAM_NONE) return 0;
+  if (!pulls && !sim->points.n) return 0;
   backend_begin(sim, TIMER_GRAVITY);
-  bad = sim->pull_due && pull(sim, err);
-  for (long i = 0; i < 3 * s->n && !bad; i++) s->acc[i] += s->pull[i];
+  bad = pulls && sim->pull_due && pull(sim, err);
+  for (long i = 0; i < 3 * s->n && pulls && !bad; i++) s->acc[i] += s->pull[i];
+  bad = bad || points_exchange(sim, err);
   backend_end(sim, TIMER_GRAVITY);
   return bad ? -1 : 0;
 }
@@ -233,6 +239,7 @@ static int cpu_gravity(Sim *sim, Err *err)
 static void cpu_pass(Sim *sim, int pass, const Step *step)
 {
   const State *s = &sim->s;
+  points_pass(sim, pass, step);
   backend_begin(sim, TIMER_LOCAL);
   switch (pass) {
 #define CPU_PASS(CAPITAL, NAME)                                                                    \
@@ -266,5 +273,5 @@ static int cpu_cards(void) { return 1; }
 /* clang-format off */
 const struct backend backend_cpu = {
   "cpu", cpu_cards, cpu_open, cpu_close, cpu_store, cpu_fetch, cpu_copy, cpu_search, cpu_pass,
-  cpu_gradient, cpu_density, cpu_force, cpu_gravity, cpu_limits, cpu_sums, cpu_bodies, cpu_error};
+  cpu_gradient, cpu_density, cpu_force, cpu_gravity, cpu_points, cpu_limits, cpu_sums, cpu_bodies, cpu_error};
 /* clang-format on */

@@ -3,6 +3,7 @@
  * arrays, one a member, over which the shared pair function is vectorised. Kernel, dimension class,
  * solid and miscible are literals of the stamped loops. */
 #include <stdlib.h>
+#include "../image.h"
 #include "cpu.h"
 
 enum { ROOM = 64 }; /* neighbours that a pack holds at first; it grows */
@@ -34,17 +35,26 @@ typedef struct {
 } Body;
 enum { FLOW = sizeof(Flow) / sizeof(double), BODY = sizeof(Body) / sizeof(double) };
 
+/* Row i: a particle or an image. */
 static Flow flow_of(const State *s, long i)
 {
-  const double *y = &s->y[3 * i], *v = &s->v[3 * i];
-  Flow f = {y[0], y[1], y[2], v[0], v[1], v[2], s->ha[i], s->m[i] / s->rhoa[i]};
+  const long o = image_owner(s, i);
+  const double *y = &s->y[3 * i], *v = &s->v[3 * o];
+  double w[3];
+  image_signs(s, i, w);
+  Flow f = {y[0],        y[1],        y[2],     w[0] * v[0],
+            w[1] * v[1], w[2] * v[2], s->ha[i], s->m[i] / s->rhoa[o]};
   return f;
 }
 
 static Body body_of(const State *s, long i)
 {
   const double *x = &s->x[3 * i];
-  Body b = {x[0], x[1], x[2], passes_body(s, i)};
+  double w[3];
+  Body b = {x[0], x[1], x[2], passes_body(s, image_owner(s, i))};
+  if (i < s->n) return b;
+  image_signs(s, i, w);
+  passes_turn_body(&b.b, w);
   return b;
 }
 
@@ -54,7 +64,7 @@ static void records(Sim *sim, int body)
   Cpu *c = sim->own;
   const State *s = &sim->s;
 #pragma omp parallel for schedule(static)
-  for (long i = 0; i < s->n; i++) {
+  for (long i = 0; i < s->all; i++) {
     if (body)
       ((Body *)c->record)[i] = body_of(s, i);
     else

@@ -65,9 +65,29 @@ int cpu_error(Sim *sim, const Step *step, double *worst, Err *err)
   (void)err;
 #pragma omp parallel for reduction(max : most)
   for (long i = 0; i < s->n; i++) {
-    const double e = reduce_error(s, step, i);
+    const double e = reduce_error(s, step->dt, i);
     most = e > most ? e : most;
   }
   *worst = most;
+  return 0;
+}
+
+int cpu_points(Sim *sim, const PointField *field, PointReaction *reaction, Err *err)
+{
+  const State *s = &sim->s;
+  const long blocks = (s->n + BLOCK - 1) / BLOCK;
+  PointReaction *part = calloc((size_t)(blocks * field->n) + 1, sizeof *part);
+  if (!part) return err_set(err, "not enough memory");
+#pragma omp parallel for schedule(static)
+  for (long b = 0; b < blocks; b++)
+    for (long i = b * BLOCK; i < s->n && i < (b + 1) * BLOCK; i++) {
+      points_pull(field, &s->x[3 * i], &s->acc[3 * i]);
+      for (int k = 0; k < field->n; k++)
+        points_react(&part[b * field->n + k], &field->at[k], s->m[i], &s->x[3 * i]);
+    }
+  memset(reaction, 0, (size_t)field->n * sizeof *reaction);
+  for (long b = 0; b < blocks; b++)
+    for (int k = 0; k < field->n; k++) points_merge(&reaction[k], &part[b * field->n + k]);
+  free(part);
   return 0;
 }

@@ -28,6 +28,7 @@ static void cuda_pass(Sim *sim, int pass, const Step *step)
   Cuda *c = cuda_of(sim);
   CudaError *error = &c->error;
   const unsigned block = 128, grid = launch_blocks((size_t)sim->s.n, block);
+  points_pass(sim, pass, step);
   cuda_begin(sim, TIMER_LOCAL);
   switch (pass + (pass >= PASS_EOS_FIRST && !sim->rare ? PASS_COUNT : 0)) {
 #define CUDA_PASS(CAPITAL, NAME)                                                                   \
@@ -54,8 +55,8 @@ static int cuda_cards(void)
 size_t cuda_bytes(Sim *sim, const Parts *p)
 {
   return cuda_state_bytes(sim, p) + cuda_store_bytes(sim) + cuda_order_bytes(sim) +
-         cuda_tree_bytes(sim) + cuda_lists_bytes(sim, p) + cuda_loops_bytes(sim) +
-         cuda_gravity_bytes(sim) + cuda_reduce_bytes();
+         cuda_images_bytes(sim) + cuda_tree_bytes(sim) + cuda_lists_bytes(sim, p) +
+         cuda_loops_bytes(sim) + cuda_gravity_bytes(sim) + cuda_reduce_bytes();
 }
 
 /* The card by name, and whether the particles fit; a little is left for what is not counted. */
@@ -94,7 +95,8 @@ static void cuda_close(Sim *sim)
   if (!c) return;
   if (c->stream) cudaStreamSynchronize(c->stream);
   cuda_reduce_close(sim), cuda_gravity_close(sim), cuda_loops_close(sim), cuda_lists_close(sim);
-  cuda_tree_close(sim), cuda_order_close(sim), cuda_clock_close(sim), cuda_store_close(sim);
+  cuda_tree_close(sim), cuda_images_close(sim), cuda_order_close(sim), cuda_clock_close(sim),
+      cuda_store_close(sim);
   cuda_state_close(sim);
   if (c->stream) cudaStreamDestroy(c->stream);
   free(c);
@@ -109,14 +111,14 @@ static int cuda_open(Sim *sim, const Parts *p, Err *err)
   CudaError *error = &c->error;
   sim->own = c;
   memset(&sim->s, 0, sizeof sim->s);
-  sim->s.n = p->n, sim->s.dimension = p->dimension, sim->s.rare = sim->rare;
-  backend_range(sim);
+  sim->s.n = sim->s.all = p->n, sim->s.room = cuda_images_room(sim, p);
+  sim->s.bounds = sim->bounds, sim->s.dimension = p->dimension, sim->s.rare = sim->rare;
   CHECK(cudaSetDevice(sim->card));
   CHECK(cudaStreamCreateWithFlags(&c->stream, cudaStreamNonBlocking));
   if (!launch_failed(error, err) && !look_at_card(sim, p, err) && !cuda_state_open(sim, p, err) &&
-      !cuda_order_open(sim, err) && !cuda_tree_open(sim, err) && !cuda_lists_open(sim, err) &&
-      !cuda_loops_open(sim, err) && !cuda_gravity_open(sim, err) && !cuda_reduce_open(sim, err) &&
-      !cuda_store_open(sim, err))
+      !cuda_order_open(sim, err) && !cuda_images_open(sim, err) && !cuda_tree_open(sim, err) &&
+      !cuda_lists_open(sim, err) && !cuda_loops_open(sim, err) && !cuda_gravity_open(sim, err) &&
+      !cuda_reduce_open(sim, err) && !cuda_store_open(sim, err))
     return 0;
   cuda_close(sim);
   return -1;
@@ -149,10 +151,19 @@ static void timed_force(Sim *sim) { cuda_begin(sim, TIMER_B), cuda_force(sim), c
 
 static int timed_gravity(Sim *sim, Err *err)
 {
-  int bad;
-  if (sim->par.gravity == PARAM_NONE) return 0;
-  cuda_begin(sim, TIMER_GRAVITY), bad = cuda_gravity(sim, err), cuda_end(sim);
-  return bad;
+  int bad = 0;
+  if (sim->par.gravity == PARAM_NONE && !sim->points.n) return 0;
+  cuda_begin(sim, TIMER_GRAVITY);
+  if (sim->par.gravity != PARAM_NONE) bad = cuda_gravity(sim, err);
+  bad = bad || points_exchange(sim, err);
+  cuda_end(sim);
+  return bad ? -1 : 0;
+}
+
+static int pull_and_reaction(Sim *sim, const PointField *field, PointReaction *reaction, Err *err)
+{
+  cuda_points(sim, field);
+  return cuda_reaction(sim, field, reaction, err);
 }
 
 static int timed_limits(Sim *sim, const Step *step, Limits *out, Err *err)
@@ -166,5 +177,5 @@ static int timed_limits(Sim *sim, const Step *step, Limits *out, Err *err)
 /* clang-format off */
 extern "C" const struct backend backend_cuda = {
   "cuda", cuda_cards, cuda_open, cuda_close, cuda_store, cuda_fetch, cuda_copy, cuda_search, cuda_pass,
-  timed_gradient, timed_density, timed_force, timed_gravity, timed_limits, cuda_sums, cuda_bodies, cuda_error};
+  timed_gradient, timed_density, timed_force, timed_gravity, pull_and_reaction, timed_limits, cuda_sums, cuda_bodies, cuda_error};
 /* clang-format on */

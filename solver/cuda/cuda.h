@@ -85,6 +85,7 @@ typedef struct {
   struct CudaGravity *gravity; /* private to gravity.cu */
   struct CudaReduce *reduce;   /* private to reduce.cu */
   struct CudaStore *store;     /* private to store.cu */
+  struct CudaImages *images;   /* private to images.cu; NULL: no faces to be seen through */
   struct CudaClock *clock;     /* private to clock.cu */
   double *flaw;                /* all thresholds */
   Material *material;
@@ -133,7 +134,7 @@ void cuda_end(Sim *sim);
 void cuda_clock(Sim *sim);
 void cuda_clock_close(Sim *sim);
 
-/* Each part: bytes is what its open will take for sim->s.n particles; open allocates, close frees
+/* Each part: bytes is what its open will take for sim->s.room rows; open allocates, close frees
  * (also after a failed open); steps return 0 or -1 with a message. Steps that return nothing leave
  * a failure in `error`, which the next step that returns something reports. No step but cuda_lists
  * and the reductions waits for the device. */
@@ -141,6 +142,14 @@ size_t cuda_order_bytes(Sim *sim);
 int cuda_order_open(Sim *sim, Err *err);
 int cuda_order(Sim *sim, Err *err); /* root, keys, sort, permutation; points if gravity is due */
 void cuda_order_close(Sim *sim);
+/* cuda_images_find: behind the particles of the old order; cuda_images_order: of the new one.
+ * cuda_images_room: rows to begin with. */
+long cuda_images_room(const Sim *sim, const Parts *parts);
+size_t cuda_images_bytes(Sim *sim);
+int cuda_images_open(Sim *sim, Err *err);
+int cuda_images_find(Sim *sim, Err *err);
+void cuda_images_order(Sim *sim);
+void cuda_images_close(Sim *sim);
 size_t cuda_tree_bytes(Sim *sim);
 int cuda_tree_open(Sim *sim, Err *err);
 int cuda_tree(Sim *sim, Err *err); /* nodes, boxes; poles if gravity is due */
@@ -158,12 +167,14 @@ void cuda_loops_close(Sim *sim);
 size_t cuda_gravity_bytes(const Sim *sim);
 int cuda_gravity_open(Sim *sim, Err *err);
 int cuda_gravity(Sim *sim, Err *err); /* tree or direct: pull and phi, added to acc */
+void cuda_points(Sim *sim, const PointField *field); /* their pull, added to acc */
 void cuda_gravity_close(Sim *sim);
 size_t cuda_reduce_bytes(void);
 int cuda_reduce_open(Sim *sim, Err *err);
 int cuda_limits(Sim *sim, const Step *step, Limits *out, Err *err);
 int cuda_sums(Sim *sim, Sums *out, Err *err);
 int cuda_bodies(Sim *sim, Step *step, Err *err);
+int cuda_reaction(Sim *sim, const PointField *field, PointReaction *reaction, Err *err);
 int cuda_error(Sim *sim, const Step *step, double *worst, Err *err);
 void cuda_reduce_close(Sim *sim);
 

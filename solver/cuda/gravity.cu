@@ -168,6 +168,20 @@ static __global__ void add_pull(const __grid_constant__ Walk w, const Recoil *k,
   for (int d = 0; d < 3; d++) acc[3 * i + d] += a[d];
 }
 
+static __global__ void pull_points(const State s, const __grid_constant__ PointField field)
+{
+  const int64_t i = (int64_t)blockIdx.x * blockDim.x + threadIdx.x;
+  if (i < s.n) points_pull(&field, s.x + 3 * i, s.acc + 3 * i);
+}
+
+void cuda_points(Sim *sim, const PointField *field)
+{
+  Cuda *c = cuda_of(sim);
+  CudaError *error = &c->error;
+  LAUNCH(pull_points, launch_blocks((size_t)sim->s.n, DIRECT_BLOCK), DIRECT_BLOCK, 0, c->stream,
+         sim->s, *field);
+}
+
 int cuda_gravity_open(Sim *sim, Err *err)
 {
   CudaGravity *g = (CudaGravity *)calloc(1, sizeof *g);

@@ -49,17 +49,28 @@ static __device__ long neighbour(const uint32_t *list, int k)
   return __ldg(list + (int64_t)k * CUDA_GROUP);
 }
 
+/* A vector of the owner of row i, as it is seen there. */
+static __device__ __forceinline__ void seen(const State &s, long i, const double *v, double w[3])
+{
+  image_signs(&s, i, w);
+#pragma unroll
+  for (int d = 0; d < 3; d++) w[d] *= v[d];
+}
+
 /* Records for loop A: y with ha, v with the volume; they have no w. */
 static __global__ void pack_flow(Loop a)
 {
   long i = self_of();
   const State &s = a.s;
-  const double il = 1 / a.unit.length, iv = 1 / a.unit.speed, *y = &s.y[3 * i], *v = &s.v[3 * i];
-  if (i >= s.n) return;
+  const double il = 1 / a.unit.length, iv = 1 / a.unit.speed, *y = &s.y[3 * i];
+  if (i >= s.all) return;
+  const long o = image_owner(&s, i);
+  double v[3];
+  seen(s, i, &s.v[3 * o], v);
   place_set(a.r.x, i, (y[0] - a.root->origin[0]) * il, (y[1] - a.root->origin[1]) * il,
             (y[2] - a.root->origin[2]) * il, (real)(s.ha[i] * il), 0);
   place_set(a.r.v, i, v[0] * iv, v[1] * iv, v[2] * iv,
-            (real)(s.m[i] / s.rhoa[i] * a.rho / a.unit.mass), 0);
+            (real)(s.m[i] / s.rhoa[o] * a.rho / a.unit.mass), 0);
 }
 
 /* Records for loop B: x with h and m; v, rho | cs, signal, p, dxx | the rest of d. */
@@ -68,15 +79,21 @@ template <int solid> static __global__ void pack_body(Loop a)
   long i = self_of();
   const State &s = a.s;
   const double il = 1 / a.unit.length, iv = 1 / a.unit.speed, it = iv * iv / a.rho;
-  const double *x = &s.x[3 * i], *v = &s.vp[3 * i], *t = &s.t[9 * i];
-  if (i >= s.n) return;
+  const double *x = &s.x[3 * i];
+  if (i >= s.all) return;
+  const long o = image_owner(&s, i);
+  const double *t = &s.t[9 * o];
+  double v[3], w[3];
+  seen(s, i, &s.vp[3 * o], v);
+  image_signs(&s, i, w);
   place_set(a.r.x, i, (x[0] - a.root->origin[0]) * il, (x[1] - a.root->origin[1]) * il,
             (x[2] - a.root->origin[2]) * il, (real)(s.h[i] * il), (real)(s.m[i] / a.unit.mass));
-  quad_set(a.r.q[0], i, v[0] * iv, v[1] * iv, v[2] * iv, s.rho[i] / a.rho);
-  quad_set(a.r.q[1], i, s.cs[i] * iv, s.cl[i] * iv, s.push[i] * a.push, solid ? t[0] * it : 0);
+  quad_set(a.r.q[0], i, v[0] * iv, v[1] * iv, v[2] * iv, s.rho[o] / a.rho);
+  quad_set(a.r.q[1], i, s.cs[o] * iv, s.cl[o] * iv, s.push[o] * a.push, solid ? t[0] * it : 0);
   if (!solid) return;
-  quad_set(a.r.q[2], i, t[1] * it, t[2] * it, t[3] * it, t[4] * it);
-  quad_set(a.r.q[3], i, t[5] * it, t[6] * it, t[7] * it, t[8] * it);
+  const double xy = w[0] * w[1] * it, xz = w[0] * w[2] * it, yz = w[1] * w[2] * it;
+  quad_set(a.r.q[2], i, t[1] * xy, t[2] * xz, t[3] * xy, t[4] * it);
+  quad_set(a.r.q[3], i, t[5] * yz, t[6] * xz, t[7] * yz, t[8] * it);
 }
 
 template <class T> static __device__ __forceinline__ T from_lane(T x, int k)
@@ -291,7 +308,7 @@ static __global__ void pack_places(Loop a)
   long i = self_of();
   const State &s = a.s;
   const double il = 1 / a.unit.length, *x = &s.x[3 * i];
-  if (i >= s.n) return;
+  if (i >= s.all) return;
   place_set(a.r.x, i, (x[0] - a.root->origin[0]) * il, (x[1] - a.root->origin[1]) * il,
             (x[2] - a.root->origin[2]) * il, (real)(s.h[i] * il), (real)(s.m[i] / a.unit.mass));
 }
@@ -341,7 +358,7 @@ static void run_loop(Sim *sim, Run pack, const Stamp *loop)
   CudaError *error = &c->error;
   const Loop a = loop_of(sim);
   const unsigned blocks = launch_blocks((size_t)sim->s.n, THREADS);
-  LAUNCH(pack, blocks, THREADS, 0, c->stream, a);
+  LAUNCH(pack, launch_blocks((size_t)sim->s.all, THREADS), THREADS, 0, c->stream, a);
   LAUNCH(loop->each, blocks, THREADS, 0, c->stream, a);
   LAUNCH(loop->crowded, blocks, THREADS, 0, c->stream, a);
 }
@@ -367,7 +384,7 @@ static void force(Sim *sim)
 }
 
 /* Where arrays of one quad a particle may begin. */
-static size_t rows_of(const Sim *sim) { return ((size_t)sim->s.n + 31) / 32 * 32; }
+static size_t rows_of(const Sim *sim) { return ((size_t)sim->s.room + 31) / 32 * 32; }
 
 static size_t bytes(const Sim *sim)
 {

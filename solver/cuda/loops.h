@@ -5,6 +5,9 @@
 
 #include <stdlib.h>
 #include "cuda.h"
+extern "C" {
+#include "../image.h"
+}
 
 typedef struct {
   size_t (*bytes)(const Sim *sim); /* device memory that open takes */

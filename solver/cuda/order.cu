@@ -101,8 +101,9 @@ static __global__ void find_root(const double *x, long words, const int64_t *id,
   }
 }
 
-static __global__ void make_keys(const double *x, long n, const Root *root, uint64_t *key,
-                                 uint32_t *from)
+/* split: the first image, which come after all particles; 0: none. */
+static __global__ void make_keys(const double *x, long n, long split, const Root *root,
+                                 uint64_t *key, uint32_t *from)
 {
   const long i = (long)blockIdx.x * THREADS + threadIdx.x;
   const double scale = (1 << HILBERT_LEVELS) / root->edge;
@@ -114,7 +115,8 @@ static __global__ void make_keys(const double *x, long n, const Root *root, uint
   for (uint32_t bit = 1u << (HILBERT_LEVELS - 1); bit > 1; bit >>= 1)
 #pragma unroll
     for (int d = 0; d < 3; d++) hilbert_turn(bit, d, &c[0], &c[d]);
-  key[i] = hilbert_join(c[0], c[1], c[2]);
+  const uint64_t k = hilbert_join(c[0], c[1], c[2]);
+  key[i] = split ? k >> 3 | (uint64_t)(i >= split) << 3 * (HILBERT_LEVELS - 1) : k;
   from[i] = (uint32_t)i;
 }
 
@@ -348,8 +350,9 @@ int cuda_order(Sim *sim, Err *err)
 {
   Cuda *c = cuda_of(sim);
   CudaError *error = &c->error;
-  struct CudaOrder *o = c->order;
-  const long n = sim->s.n;
+  if (cuda_images_find(sim, err)) return -1;
+  struct CudaOrder *o = c->order; /* more images than before may have made another one */
+  const long n = sim->s.all;
   const unsigned blocks = launch_blocks((size_t)n, THREADS);
   unsigned spans = launch_blocks(3 * (size_t)n, 4 * SPAN);
   CudaColumn column[CUDA_COLUMNS];
@@ -360,9 +363,11 @@ int cuda_order(Sim *sim, Err *err)
   if (spans > SPANS) spans = SPANS;
   LAUNCH(find_root, spans, SPAN, 0, c->stream, sim->s.x, 3 * n, sim->s.id, draw, o->part, o->ticket,
          c->root, o->report);
-  LAUNCH(make_keys, blocks, THREADS, 0, c->stream, sim->s.x, n, c->root, o->key[0], o->from[0]);
+  LAUNCH(make_keys, blocks, THREADS, 0, c->stream, sim->s.x, n, n > sim->s.n ? sim->s.n : 0,
+         c->root, o->key[0], o->from[0]);
   sort_keys(c, n, sim->s.id);
   while (columns > 0) columns = permute_some(sim, column, columns, column + moved, all - moved);
+  cuda_images_order(sim);
   return launch_failed(error, err);
 }
 
@@ -388,7 +393,7 @@ static size_t sort_bytes(Sim *sim)
   cub::DoubleBuffer<uint32_t> from(NULL, NULL);
   CudaError *error = &cuda_of(sim)->error;
   size_t bytes = 0;
-  CHECK(cub::DeviceRadixSort::SortPairs(NULL, bytes, key, from, (int)sim->s.n, 0,
+  CHECK(cub::DeviceRadixSort::SortPairs(NULL, bytes, key, from, (int)sim->s.room, 0,
                                         3 * HILBERT_LEVELS, cuda_of(sim)->stream));
   return bytes;
 }
@@ -398,7 +403,7 @@ size_t cuda_order_bytes(Sim *sim)
   int bytes[CUDA_COLUMNS];
   size_t row = 2 * (sizeof(uint64_t) + sizeof(uint32_t));
   for (int k = spares_of(sim, bytes); k-- > 0;) row += (size_t)bytes[k];
-  return (size_t)sim->s.n * row + sort_bytes(sim) + SPANS * sizeof(Extent) +
+  return (size_t)sim->s.room * row + sort_bytes(sim) + SPANS * sizeof(Extent) +
          (size_t)order_first(sim->s.n) * sizeof(int) + (size_t)sim->s.n / CUDA_GROUP;
 }
 
@@ -406,7 +411,7 @@ int cuda_order_open(Sim *sim, Err *err)
 {
   Cuda *c = cuda_of(sim);
   CudaError *error = &c->error;
-  const size_t n = (size_t)sim->s.n;
+  const size_t n = (size_t)sim->s.room;
   struct CudaOrder *o = (struct CudaOrder *)calloc(1, sizeof *o);
   int bytes[CUDA_COLUMNS];
   if (!o) return err_set(err, "not enough memory");

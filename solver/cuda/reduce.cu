@@ -21,6 +21,7 @@ typedef struct {
   ReduceMotion motion[BODIES];
   ReduceSpin spin[BODIES];
   Worst worst;
+  PointReaction reaction[POINTS];
 } Results;
 
 struct CudaReduce {
@@ -33,6 +34,7 @@ typedef struct {
   State s;
   Step k;
   const ReduceMotion *motion; /* of the spins: [BODIES] */
+  PointSource point;          /* of the reaction */
 } Context;
 
 /* Each reduction by the type of its result: none of any particle, one more, two joined. */
@@ -58,9 +60,13 @@ static __device__ void add(ReduceSpin *o, const Context &c, int body, long i)
   reduce_motion(&c.motion[body], centre, velocity);
   reduce_add_spin(o, &c.s, centre, velocity, i);
 }
+static __device__ void add(PointReaction *o, const Context &c, int, long i)
+{
+  points_react(o, &c.point, c.s.m[i], c.s.x + 3 * i);
+}
 static __device__ void add(Worst *o, const Context &c, int, long i)
 {
-  double e = reduce_error(&c.s, &c.k, i);
+  double e = reduce_error(&c.s, c.k.dt, i);
   o->worst = e > o->worst ? e : o->worst;
 }
 
@@ -68,6 +74,7 @@ static __device__ void merge(Limits *a, const Limits *b) { reduce_merge_limits(a
 static __device__ void merge(ReduceSums *a, const ReduceSums *b) { reduce_merge_sums(a, b); }
 static __device__ void merge(ReduceMotion *a, const ReduceMotion *b) { reduce_merge_motion(a, b); }
 static __device__ void merge(ReduceSpin *a, const ReduceSpin *b) { reduce_merge_spin(a, b); }
+static __device__ void merge(PointReaction *a, const PointReaction *b) { points_merge(a, b); }
 static __device__ void merge(Worst *a, const Worst *b)
 {
   a->worst = b->worst > a->worst ? b->worst : a->worst;
@@ -107,15 +114,17 @@ template <class T> static __global__ void reduce_all(const T *part, unsigned par
   if (threadIdx.x == 0) out[blockIdx.x] = o;
 }
 
-template <class T> static void reduce(Sim *sim, const Step *step, int bodies, T *out)
+template <class T>
+static void reduce(Sim *sim, const Step *step, int bodies, T *out, const PointSource *point = NULL)
 {
   Cuda *c = cuda_of(sim);
   CudaError *error = &c->error;
   T *part = (T *)c->reduce->part;
-  Context x = {sim->s, {}, c->reduce->device->motion};
+  Context x = {sim->s, {}, c->reduce->device->motion, {}};
   const unsigned all = launch_blocks((size_t)sim->s.n, THREADS),
                  parts = all < BLOCKS ? all : BLOCKS;
   if (step) x.k = *step;
+  if (point) x.point = *point;
   LAUNCH(reduce_parts<T>, dim3(parts, (unsigned)bodies), THREADS, 0, c->stream, x, part);
   LAUNCH(reduce_all<T>, (unsigned)bodies, THREADS, 0, c->stream, (const T *)part, parts, out);
 }
@@ -168,6 +177,15 @@ int cuda_error(Sim *sim, const Step *step, double *worst, Err *err)
   reduce(sim, step, 1, &r->device->worst);
   if (fetch(sim, err)) return -1;
   *worst = r->host->worst.worst;
+  return 0;
+}
+
+int cuda_reaction(Sim *sim, const PointField *field, PointReaction *reaction, Err *err)
+{
+  struct CudaReduce *r = cuda_of(sim)->reduce;
+  for (int k = 0; k < field->n; k++) reduce(sim, NULL, 1, &r->device->reaction[k], &field->at[k]);
+  if (fetch(sim, err)) return -1;
+  memcpy(reaction, r->host->reaction, (size_t)field->n * sizeof *reaction);
   return 0;
 }
 

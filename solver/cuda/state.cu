@@ -117,7 +117,7 @@ static size_t table_bytes(const Sim *sim, int k)
 size_t cuda_state_bytes(Sim *sim, const Parts *p)
 {
   CudaColumn column[CUDA_COLUMNS];
-  size_t n = (size_t)sim->s.n, sum = 0;
+  size_t n = (size_t)sim->s.room, sum = 0;
   int all;
   cuda_columns(sim, column, &all);
   for (int k = 0; k < sim->materials; k++) sum += rounded(table_bytes(sim, k));
@@ -150,7 +150,7 @@ static int alloc(Sim *sim, const Parts *p, Err *err)
 {
   Cuda *c = cuda_of(sim);
   CudaColumn column[CUDA_COLUMNS];
-  size_t n = (size_t)p->n;
+  size_t n = (size_t)sim->s.room;
   int all, bad = 0;
   cuda_columns(sim, column, &all);
   for (int k = 0; k < all && !bad; k++)

@@ -415,7 +415,7 @@ int cuda_tree(Sim *sim, Err *err)
   Cuda *c = cuda_of(sim);
   CudaError *error = &c->error;
   struct CudaTree *b = c->build;
-  const int blocks = blocks_of(sim->s.n), few = min(blocks, 8 * 132),
+  const int blocks = blocks_of(sim->s.all), few = min(blocks, 8 * 132),
             poles = walked(sim) && sim->pull_due;
   Build a = {sim->s,
              c->unit.length,
@@ -427,6 +427,7 @@ int cuda_tree(Sim *sim, Err *err)
              *b,
              c->order->report,
              blocks};
+  a.s.n = sim->s.all;
   LAUNCH(count_nodes, blocks, THREADS, 0, c->stream, a);
   if (!error->code)
     CHECK(cub::DeviceScan::ExclusiveSum(b->scan, b->scan_bytes, b->count, b->base,
@@ -483,7 +484,7 @@ static size_t scan_bytes(Sim *sim)
   CudaError *error = &cuda_of(sim)->error;
   size_t bytes = 0;
   CHECK(cub::DeviceScan::ExclusiveSum(NULL, bytes, (int *)NULL, (int *)NULL,
-                                      (int)counts_of(sim->s.n), cuda_of(sim)->stream));
+                                      (int)counts_of(sim->s.room), cuda_of(sim)->stream));
   return bytes;
 }
 
@@ -495,15 +496,15 @@ size_t cuda_tree_bytes(Sim *sim)
   size_t node = 0;
   nothing.build = &none;
   for (int k = node_arrays(sim, &nothing, a); k-- > 0;) node += a[k].bytes;
-  return (size_t)first_room(sim->s.n) * node +
-         (size_t)sim->s.n * (sizeof *none.place + sizeof *nothing.tree.span) +
-         counts_of(sim->s.n) * 2 * sizeof *none.count + scan_bytes(sim);
+  return (size_t)first_room(sim->s.room) * node +
+         (size_t)sim->s.room * (sizeof *none.place + sizeof *nothing.tree.span) +
+         counts_of(sim->s.room) * 2 * sizeof *none.count + scan_bytes(sim);
 }
 
 int cuda_tree_open(Sim *sim, Err *err)
 {
   Cuda *c = cuda_of(sim);
-  const size_t n = (size_t)sim->s.n, counts = counts_of(sim->s.n);
+  const size_t n = (size_t)sim->s.room, counts = counts_of(sim->s.room);
   struct CudaTree *b = (struct CudaTree *)calloc(1, sizeof *b);
   if (!b) return err_set(err, "not enough memory");
   c->build = b, b->scan_bytes = scan_bytes(sim);
@@ -515,7 +516,7 @@ int cuda_tree_open(Sim *sim, Err *err)
       cuda_alloc(sim, &b->scan, b->scan_bytes, err) ||
       cuda_alloc(sim, (void **)&c->tree.level, (ROWS + 1) * sizeof(int), err))
     return -1;
-  return cuda_tree_grow(sim, first_room(sim->s.n), err);
+  return cuda_tree_grow(sim, first_room(sim->s.room), err);
 }
 
 void cuda_tree_close(Sim *sim)

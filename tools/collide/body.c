@@ -89,6 +89,8 @@ int body_read(Body *b, const char *file, const char *select, const char *radius,
 {
   *b = (Body){.file = file, .p = snap_read(file, err)};
   if (!b->p || part_need(b->p, GROUP_FIELDS, file, err) || part_check(b->p, file, err)) return -1;
+  if (b->p->points)
+    return err_set(err, "'%s' has point masses: only particles are put on an orbit", file);
   if (b->p->n == 0) return err_set(err, "'%s' has no particles", file);
   if (b->p->dimension == 1) return err_set(err, "'%s' is 1D: an approach needs a plane", file);
   if (select && choose(b, select, err)) return -1;

@@ -63,6 +63,7 @@ int body_read(Body *b, const char *path, const Options *o, Err *err)
   const StructureNode *top;
   if (!(b->p = snap_read(path, err))) return -1;
   if (part_need(b->p, SIM_FIELDS, label, err) || part_check(b->p, label, err)) return -1;
+  if (b->p->points) return err_set(err, "'%s' has point masses: a body is relaxed alone", label);
   if (!(b->material = material_load(b->p, err))) return -1;
   if (!(b->layer = malloc(sizeof *b->layer * (size_t)(b->p->n ? b->p->n : 1))))
     return err_set(err, "not enough memory");

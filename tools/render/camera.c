@@ -4,53 +4,51 @@
 #include <string.h>
 #include <gsl/gsl_sort.h>
 #include "camera.h"
-#include "lib/group.h"
-#include "lib/unit.h"
 
-#define MARGIN 1.2
+#define MARGIN  1.2
+#define NEAREST 0.02 /* of the eye's distance: nothing nearer is drawn */
+
+static const double right_angle = 1.57079632679489661923;
+
+/* Exact at right angles. */
+static double tidy(double x) { return fabs(x) < 1e-15 ? 0 : x; }
+
+void camera_turn(Camera *c, double azimuth, double elevation, double roll)
+{
+  double ca = tidy(cos(azimuth)), sa = tidy(sin(azimuth)), ce = tidy(cos(elevation)),
+         se = tidy(sin(elevation)), cr = tidy(cos(roll)), sr = tidy(sin(roll));
+  const double right[3] = {-sa, ca, 0}, up[3] = {-se * ca, -se * sa, ce},
+               out[3] = {ce * ca, ce * sa, se};
+  c->distance = INFINITY;
+  for (int a = 0; a < 3; a++) {
+    c->axis[0][a] = cr * right[a] + sr * up[a], c->axis[1][a] = cr * up[a] - sr * right[a];
+    c->axis[2][a] = out[a];
+  }
+}
 
 void camera_plane(Camera *c, const char *plane)
 {
-  c->right = plane[0] - 'x', c->up = plane[1] - 'x';
-  c->out = 3 - c->right - c->up;
-  c->sign = c->out == 1 ? -1 : 1; /* right x up */
+  camera_turn(c, strcmp(plane, "yz") ? -right_angle : 0, strcmp(plane, "xy") ? 0 : right_angle, 0);
 }
 
-static int centre_of(double x[3], const Parts *p, const int32_t *id, long wanted)
+/* Along an axis, from the centre. */
+static double along(const Camera *c, int k, const double x[3])
 {
-  double mass = 0, sum[3] = {0};
-  for (long i = 0; i < p->n; i++) {
-    if (id && id[i] != wanted) continue;
-    for (int a = 0; a < 3; a++) sum[a] += p->m[i] * p->x[3 * i + a];
-    mass += p->m[i];
-  }
-  for (int a = 0; a < 3 && mass > 0; a++) x[a] = sum[a] / mass;
-  return mass > 0 ? 0 : -1;
+  double sum = 0;
+  for (int a = 0; a < 3; a++) sum += c->axis[k][a] * (x[a] - c->centre[a]);
+  return sum;
 }
 
-int camera_centre(Camera *c, const Parts *p, const char *text, const char *file, Err *err)
-{
-  const int32_t *id;
-  int32_t wanted;
-  Err why;
-  if (!strcmp(text, "com"))
-    return centre_of(c->centre, p, NULL, 0) ? err_set(err, "'%s': no particles", file) : 0;
-  if (!strchr(text, ':') ? unit_list(text, "m", 3, c->centre, &why)
-                         : group_named(p, text, file, &id, &wanted, &why))
-    return err_set(err, "--centre: %s", why.text);
-  return strchr(text, ':') ? centre_of(c->centre, p, id, wanted) : 0;
-}
-
-double camera_extent(const Camera *c, const Parts *p)
+double camera_extent(const Camera *c, const Parts *p, double slope)
 {
   double *need = malloc((size_t)(p->n + 1) * sizeof *need), mass = 0, sum = 0, width = 0;
   size_t *order = malloc((size_t)(p->n + 1) * sizeof *order);
   if (!need || !order) err_die("out of memory");
   for (long i = 0; i < p->n; i++) {
-    const double *x = p->x + 3 * i;
-    double across = fabs(x[c->right] - c->centre[c->right]),
-           tall = fabs(x[c->up] - c->centre[c->up]);
-    need[i] = 2 * (fmax(across, tall * c->w / c->h) + 0.5 * p->h[i]), mass += p->m[i];
+    double across = fabs(along(c, 0, p->x + 3 * i)), tall = fabs(along(c, 1, p->x + 3 * i));
+    need[i] = 2 * (fmax(across, tall * c->w / c->h) + 0.5 * p->h[i]) +
+              2 * slope * along(c, 2, p->x + 3 * i);
+    mass += p->m[i];
   }
   gsl_sort_index(order, need, 1, (size_t)p->n);
   for (long k = 0; k < p->n && sum < 0.99 * mass; k++)
@@ -59,9 +57,11 @@ double camera_extent(const Camera *c, const Parts *p)
   return MARGIN * width;
 }
 
-void camera_see(const Camera *c, const double x[3], double *u, double *v, double *depth)
+double camera_see(const Camera *c, const double x[3], double *u, double *v, double *depth)
 {
-  *u = c->w / 2. + c->scale * (x[c->right] - c->centre[c->right]);
-  *v = c->h / 2. - c->scale * (x[c->up] - c->centre[c->up]);
-  *depth = c->scale * (c->sign * (x[c->out] - c->centre[c->out]) - c->offset);
+  double out = along(c, 2, x), near = 1 - out / c->distance, zoom = near > NEAREST ? 1 / near : 0;
+  *u = c->w / 2. + zoom * c->scale * along(c, 0, x);
+  *v = c->h / 2. - zoom * c->scale * along(c, 1, x);
+  *depth = c->scale * (out - c->offset);
+  return zoom;
 }

@@ -138,5 +138,6 @@ void decor_bar(Image *im, Box box, const Font *font, const Scale *s)
     linear_ticks(im, bar, font, s, factor);
   snprintf(label, sizeof label, *unit ? "%s [%s]" : "%s", s->name, unit);
   f.align = FONT_CENTRE, f.up = 1;
+  f.size *= fmin(1, 0.94 * box.h / font_width(label, size));
   font_draw(im, &f, box.x + box.w - 0.6 * size, box.y + box.h / 2., label);
 }

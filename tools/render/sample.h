@@ -18,12 +18,21 @@ typedef struct {
  * its own); kinds by the particle that weighs most. */
 int slice_sample(Window *win, const Parts *p, const Field *f, const Camera *c, Err *err);
 
-/* cut_sample: particles as shaded spheres; what lies before the cutting plane is removed, the
- * spheres that it meets are cut flat. whole: nothing is removed. */
-int cut_sample(Window *win, const Parts *p, const Field *f, const Camera *c, int whole, Err *err);
+/* What is removed: the space in front of all of the planes normal . x = 0 through the centre (0 of
+ * them: nothing, NULL: what lies before the cutting plane). Each normal has a component towards the
+ * viewer. */
+enum { CUT_PLANES = 3 };
+typedef struct {
+  double normal[CUT_PLANES][3];
+  int planes;
+} Cut;
 
-/* project_sample: along the line of sight: sum_j m_j W_2D for FIELD_COLUMN, else the mass-weighted
- * mean of the field, where the column is more than 1e-4 of its largest value. */
+/* cut_sample: particles as shaded spheres; those that a face of the cut meets are cut flat. */
+int cut_sample(Window *win, const Parts *p, const Field *f, const Camera *c, const Cut *cut,
+               Err *err);
+
+/* project_sample: along the line of sight: sum_j m_j int W dz for FIELD_COLUMN, else the
+ * mass-weighted mean of the field, where the column is more than 1e-4 of its largest value. */
 int project_sample(Window *win, const Parts *p, const Field *f, const Camera *c, Err *err);
 
 #endif
