@@ -17,6 +17,13 @@ up_to = $(strip $1 $(if $(filter small,$(SIZE)),,$2) $(if $(filter large,$(SIZE)
 sets = $(patsubst %,--set %,$1)
 set = $(patsubst %,--set %,$(SET))
 
+# $(call run,DIR): the solver on the first prerequisite with the settings in vars; a run of the same start and settings is continued.
+define run
+@made="$$(cksum < $<) $(vars)"; \
+[ "$$(cat $1/made 2> /dev/null)" = "$$made" ] || { rm -rf $1; mkdir -p $1; echo "$$made" > $1/made; }
+solver --restart -o $1 $(vars) $<
+endef
+
 # A table judged: $(call judge,FILE.awk) FILES in a recipe for OUT/verdict.tsv.
 judge = awk -f $(here)verdict.awk -f $(here)$1
 

@@ -24,7 +24,7 @@ $(OUT)/start.h5: | $(programs)
 	$(remember)
 $(call from,$(OUT)/end.tsv,--end 0.05 --every 0.05 $(call sets,gravity.method=none kernel=cubic_spline step.cfl=0.3 $(SET)))
 $(OUT)/end.tsv: $(OUT)/start.h5
-	solver -o $(OUT)/run $(vars) $<
+	$(call run,$(OUT)/run)
 	columns -f '|Coordinates|' -f Density -f '(Coordinates.x*Velocities.x+Coordinates.y*Velocities.y+Coordinates.z*Velocities.z)/|Coordinates|' \
 	  -f Pressure -f Masses -f '(Coordinates.x > 0) + 2*(Coordinates.y > 0) + 4*(Coordinates.z > 0)' $(OUT)/run/snap_0001.h5 > $@
 	$(remember)

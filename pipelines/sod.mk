@@ -25,7 +25,7 @@ $(runs:%=%/start.h5): $(OUT)/n%/start.h5: | $(programs)
 	  alter -j $(@D)/right.h5 -s 'Coordinates.x=Coordinates.x + if(BodyID == 0, -0.5, 0.5)' > $@
 $(call from,$(runs:%=%/end.tsv),--end 0.2 --every 0.2 $(call sets,gravity.method=none density=sum kernel=cubic_spline $(SET)))
 $(runs:%=%/end.tsv): %/end.tsv: %/start.h5
-	solver -o $*/run $(vars) $<
+	$(call run,$*/run)
 	columns -f Coordinates.x -f Density -f Velocities.x -f Pressure -f InternalEnergy -f Masses $*/run/snap_0001.h5 > $@
 	$(remember)
 
