@@ -20,7 +20,7 @@ $(OUT)/start.h5: | $(programs)
 	mkshape --size 1m,1m,1m -n $(vars) -l gas:rho=1 -u 1e-6 | \
 	  alter $(foreach c,x y z,-s 'Velocities.$c=if(|Coordinates| > 0m, -1m/s*Coordinates.$c/|Coordinates|, 0m/s)') > $@
 	$(remember)
-$(call from,$(OUT)/end.tsv,--end 0.6 --every 0.6 $(call sets,gravity.method=none density=sum kernel=cubic_spline $(SET)))
+$(call from,$(OUT)/end.tsv,--end 0.6 --every 0.6 $(call sets,gravity.method=none $(SET)))
 $(OUT)/end.tsv: $(OUT)/start.h5
 	$(call run,$(OUT)/run)
 	columns -f '|Coordinates|' -f Density -f InternalEnergy -f Pressure -f Masses -w '|Coordinates| < 0.4m' $(OUT)/run/snap_0001.h5 > $@
