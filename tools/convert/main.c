@@ -127,8 +127,14 @@ static Parts *read_input(const char *path, int *format, AdoptOptions *a, Err *er
   return adopt_rows(p, a, err);
 }
 
+static void say_points(const Parts *p)
+{
+  if (p->points) notes_say("not carried over: %d point masses", p->points);
+}
+
 static int write_particles(Parts *p, int to, const char *line, Err *err)
 {
+  if (to != TO_SNAPSHOT) say_points(p);
   if (to == TO_MILUPH) return miluph_write(p, o.out, err);
   if (to == TO_MILUPH_INPUT) return columns_write(p, o.out, o.switches, err);
   if (to == TO_SNAPSHOT) return part_history(p, line, err) || snap_write(p, o.out, 0, err);
@@ -147,6 +153,7 @@ static int write_series(char **input, int n, int to, Err *err)
   for (int k = 0; k < n && !rc; k++) {
     Parts *p = read_input(input[k], &format, &a, err);
     Sheet *s = p ? sheet_new(p, &o.field, err) : NULL;
+    if (s) say_points(p);
     if (!s)
       rc = -1;
     else if (to == TO_H5PART)
