@@ -97,6 +97,7 @@ struct Sim {
   int heated;   /* any material whose strength has a temperature of its own, and strength on */
   int miscible; /* the number-density form */
   Bounds bounds;
+  Hold hold;
   State s;
   void *own;       /* the backend's */
   int card;        /* which of the backend's devices */

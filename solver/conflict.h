@@ -65,8 +65,9 @@
   U("heating.z", p->deposit_radius == 0, "heating.radius") \
   U("heating.begin", p->deposit == 0, "heating.rate") \
   U("heating.end", p->deposit == 0, "heating.rate") \
-  U("boundary.low", !s->bounds.on, "no axis of boundary has a face") \
-  U("boundary.high", !s->bounds.on, "no axis of boundary has a face")
+  U("boundary.low", !s->bounds.on && !s->hold.on, "no axis of boundary has a face, nor a layer") \
+  U("boundary.high", !s->bounds.on && !s->hold.on, "no axis of boundary has a face, nor a layer") \
+  U("layer.strength", !s->hold.on, "there is no layer")
 /* clang-format on */
 
 /* conflict_check: the first row of CONFLICTS that holds, as `a = 1 cannot go with b = 2: why`; 0 if

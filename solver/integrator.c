@@ -17,6 +17,7 @@ int integrator_gravity(Sim *sim, Err *err)
   const Step k = sim_step(sim, 0);
   if (sim->b->gravity(sim, err)) return -1;
   if (f[0] != 0 || f[1] != 0 || f[2] != 0) sim->b->pass(sim, PASS_BODY_FORCE, &k);
+  if (sim->hold.on) sim->b->pass(sim, PASS_HOLD, &k);
   return 0;
 }
 

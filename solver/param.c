@@ -108,6 +108,19 @@ static const CfgRow boundary[] = {
   {"low", CFG_VECTOR, AT(low), "m", "0,0,0", ANY, "where the lower faces are"},
   {"high", CFG_VECTOR, AT(high), "m", "0,0,0", ANY, "where the upper faces are"},
 };
+#define WALL(K, WHAT) {"body" #K, CFG_TEXT, AT(wall[K]), NULL, "free", ANY, WHAT}
+static const CfgRow walls[] = {
+  WALL(0, "particles of body 0: free, held, or moved at a velocity X,Y,Z [m/s] that nothing changes"),
+  WALL(1, "the same of body 1"), WALL(2, "the same"), WALL(3, "the same"), WALL(4, "the same"),
+  WALL(5, "the same"), WALL(6, "the same"), WALL(7, "the same"),
+};
+static const CfgRow layer[] = {
+  {"low", CFG_VECTOR, AT(layer_low), "m", "0,0,0", 0, 1e300,
+   "width of a layer before each lower face of boundary that swallows waves; 0: none"},
+  {"high", CFG_VECTOR, AT(layer_high), "m", "0,0,0", 0, 1e300, "the same before the upper faces"},
+  {"strength", CFG_REAL, AT(layer_strength), "1", "7", 0, 1e3,
+   "damping rate at the face, in units of the wave speed over the width; from the inner side on it grows linearly"},
+};
 static const CfgRow output[] = {
   {"log_every", CFG_INT, AT(log_every), NULL, "10", 1, 1e9, "steps between lines of conserved.tsv"},
   {"checkpoint_every", CFG_REAL, AT(checkpoint_every), "s", "600", 0, 1e300, "wall-clock time between checkpoints; 0: after every step"},
@@ -155,6 +168,8 @@ static const Group groups[] = {GROUP("", top),
                                GROUP("step", step),
                                GROUP("damping", damping),
                                GROUP("boundary", boundary),
+                               GROUP("walls", walls),
+                               GROUP("layer", layer),
                                GROUP("output", output),
                                GROUP("analysis", analysis)};
 enum { GROUPS = sizeof groups / sizeof *groups };

@@ -34,6 +34,8 @@ typedef struct {
   int damping_radial;
   int faces[3];
   double low[3], high[3];
+  double layer_low[3], layer_high[3], layer_strength;
+  char wall[8][64]; /* each body: free, held, or X,Y,Z */
   int log_every;
   double checkpoint_every;
   double analysis_every, analysis_link, analysis_theta, analysis_virial, analysis_converged,

@@ -8,8 +8,7 @@
 #include "../physics/pair.h"
 #include "fluid.h"
 #include "fold.h"
-
-enum { BODIES = 8 };
+#include "hold.h"
 
 /* Numbers of a step: the same for all particles. */
 typedef struct {
@@ -29,6 +28,7 @@ typedef struct {
   int viscous;          /* physical viscosity */
   Fluid fluid;
   Deposit deposit;
+  Hold hold;
 } Step;
 
 /* Why a step is as short as it is; what conserved.tsv and the log name. */
@@ -119,8 +119,8 @@ HD double passes_deposit(const State *s, const Step *k, long i)
 }
 
 /* passes_pack: p and S C (of a viscous fluid its stress times C) as the force loop takes them: p
- * above the pressure outside, which thereby acts on free surfaces. C, the inverse moment matrix of
- * loop A,
+ * (of walls of a fluid never negative) above the pressure outside, which thereby acts on free
+ * surfaces. C, the inverse moment matrix of loop A,
  * is turned by the spin over dt, from loop A's positions to those of the force loop. As C also
  * corrects the gradient that drives S, the two are adjoint; and as sum V_j r W' C = 1, the stress
  * exerts no torque on a neighbourhood (Bonet & Lok 1999, CMAME 180, 97). */
@@ -129,6 +129,7 @@ HD void passes_pack(const State *s, const Step *k, long i, int solid, double dt)
   double left = damage_shear(&s->material[s->mat[i]].damage, s->damage[i]), *t = &s->t[9 * i];
   double size = k->density == 2 ? s->m[i] / s->rho[i] : 1 / s->rho[i]; /* 2: miscible */
   double p = s->p[i] < 0 ? (1 - s->damage[i]) * s->p[i] : s->p[i];
+  if (k->hold.walls && p < 0 && !solid && hold_wall(s, &k->hold, i)) p = 0;
   s->push[i] = (p - k->outer) * size * size;
   for (int d = 0; d < 9 && !solid && s->t; d++) t[d] = 0;
   if (solid || k->viscous) {
@@ -266,6 +267,7 @@ HD void passes_damp(const State *s, const Step *k, long i, double *acc)
   int b = s->body[i] >= 0 && s->body[i] < BODIES ? s->body[i] : 0;
   const double *w = k->omega[b];
   double r[3], v[3], r2 = 0, vr = 0, f;
+  if (hold_wall(s, &k->hold, i)) return;
   for (int d = 0; d < 3; d++) r[d] = s->x[3 * i + d] - k->centre[b][d];
   v[0] = w[1] * r[2] - w[2] * r[1], v[1] = w[2] * r[0] - w[0] * r[2],
   v[2] = w[0] * r[1] - w[1] * r[0];
@@ -481,6 +483,9 @@ HD int pass_bad(const State *s, long i)
   return BAD_NONE;
 }
 
+/* hold: walls and layers. */
+HD void pass_hold(const State *s, const Step *k, long i) { hold_particle(s, &k->hold, i); }
+
 /* fold: what has left the box comes back. */
 HD void pass_fold(const State *s, const Step *k, long i)
 {
@@ -494,7 +499,7 @@ HD void pass_fold(const State *s, const Step *k, long i)
 #define PASSES(X) \
   X(KICK, kick) X(DRIFT, drift) X(FINISH, finish) X(STILL, still) X(SAVE, save) X(COMBINE, combine) \
   X(DAMP, damp) X(REMEMBER, remember) X(RECALL, recall) X(BODY_FORCE, body_force) \
-  X(FOLD, fold) PASSES_EOS(X)
+  X(HOLD, hold) X(FOLD, fold) PASSES_EOS(X)
 /* clang-format on */
 
 enum {

@@ -45,6 +45,7 @@ Step sim_step(const Sim *sim, double dt)
   k.viscous = sim->viscous;
   k.fluid = (Fluid){p->shear, p->bulk, p->shakura, p->aspect, p->compression};
   k.deposit = deposit_of(sim, dt);
+  k.hold = sim->hold;
   return k;
 }
 
@@ -86,6 +87,7 @@ static int open_common(Sim *sim, const Param *par, const Parts *p, const char *d
   sim->slots = integrator_of(par->integrator)->slots;
   sim->memory = integrator_of(par->integrator)->memory;
   set_bounds(sim, par);
+  if (hold_open(sim, p, err)) return -1;
   sim->miscible = par->density == PARAM_MISCIBLE;
   if (!(sim->material = material_load(p, err))) return -1;
   for (int k = 0; k < p->materials; k++) {
@@ -149,6 +151,13 @@ static void fold(Sim *sim)
   if (sim->bounds.on) sim->b->pass(sim, PASS_FOLD, &k);
 }
 
+/* Walls begin to move. */
+static void hold(Sim *sim)
+{
+  const Step k = sim_step(sim, 0);
+  if (sim->hold.walls) sim->b->pass(sim, PASS_HOLD, &k);
+}
+
 /* Nothing can be behind a mirror. */
 static int inside(const Bounds *b, const Parts *p, Err *err)
 {
@@ -171,7 +180,7 @@ int sim_open(Sim *sim, const Param *par, const Parts *p, const char *device, Err
     return sim_close(sim), -1;
   smoothing_range(sim, p);
   if (hand_over(sim, p, err)) return sim_close(sim), -1;
-  fold(sim);
+  fold(sim), hold(sim);
   if (integrator_of(sim->par.integrator)->start(sim, err)) return sim_close(sim), -1;
   return 0;
 }

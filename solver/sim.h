@@ -48,4 +48,7 @@ int sim_send(Sim *sim, Parts *parts, Err *err);
 /* sim_step: the numbers of a step of length dt. */
 Step sim_step(const Sim *sim, double dt);
 
+/* hold_open: the walls and layers of the settings (hold.h), for these particles. */
+int hold_open(Sim *sim, const Parts *parts, Err *err);
+
 #endif
