@@ -125,6 +125,14 @@ $(runs:%=%/masses.png): %/masses.png: %/dumps.tsv
 	  $$(cut -f 1 ../dumps.tsv) > ../objects.tsv
 	$(remember)
 
+# Dumps that were moved here without what they were made from know their orbit themselves (angles in radians).
+ifdef POST
+$(runs:%=%/geometry.tsv):
+	info --show collision $(@D)/run/snap_0000.h5 | awk -F'\t' -v OFS='\t' \
+	  '$$1 == "Collision" { print $$2, $$2 ~ /Angle|Anomaly|Obliquity/ ? $$3*45/atan2(1, 1) : $$3 }' > $@
+$(runs:%=%/report.txt): %/report.txt: %/geometry.tsv
+endif
+
 # What came out, beside the paper's numbers, and what must hold. `checked` is there when it holds.
 report = geometry.tsv before.tsv after.tsv fragments.tsv clumps.tsv run/conserved.tsv
 %/report.txt: $(here)ceres.awk %/before.tsv %/after.tsv %/fragments.tsv %/clumps.tsv

@@ -159,3 +159,20 @@ analysis='clumps conserved fof histo render track '
   grep -q '^n/a .*escape each other (the run ends' "$run_dir/report.txt" && ! grep FAILED "$run_dir/report.txt"
   for picture in cut damage end-1; do [ "$(head -c 4 "$run_dir/$picture.png" | tail -c 3)" = PNG ]; done
 }
+
+# In another folder, with another BIN: no solver, nothing that makes bodies; of the run only what a person would keep.
+@test "old dumps that were moved: post needs no solver and no initial files" {
+  mock=$real
+  study N=100 END=330 >"$BATS_TEST_TMPDIR/first"
+  here=$BATS_TEST_TMPDIR/elsewhere/N100-s1/a48-v1.7 programs=$BATS_TEST_TMPDIR/analysis
+  mkdir -p "$here/run" "$programs"
+  mv "$run_dir/run/"{snap_*.h5,run.log,conserved.tsv} "$here/run"
+  mv "$OUT" "$OUT.gone"
+  for p in fof clumps render conserved histo track info disk; do ln -s "$real/$p" "$programs/$p"; done
+  for p in solver relax mksphere weibull collide; do printf '#!/bin/sh\necho "$0" >>"%s"\nexit 1\n' "$CALLS" >"$programs/$p" && chmod +x "$programs/$p"; done
+  env -u BRECCIA_MATERIALS make -s -f pipelines/ceres.mk BIN="$programs" N=100 OUT="$BATS_TEST_TMPDIR/elsewhere" post
+  expect '' "$(called)"
+  # the same report, but for where it lies and digits of the orbit
+  diff <(tail -n +2 "$OUT.gone/N100-s1/a48-v1.7/report.txt" | sed "s|$OUT|X|") <(tail -n +2 "$here/report.txt" | sed "s|$BATS_TEST_TMPDIR/elsewhere|X|")
+  for picture in cut damage end-1; do cmp "$here/$picture.png" "$OUT.gone/N100-s1/a48-v1.7/$picture.png"; done
+}
