@@ -15,6 +15,7 @@ setup() {
     awk 'function near(a, b) { return (a - b)^2 <= 1e-24*b*b }
       { if (!near($4, 2*$1) || $5 || !near($7, 1000*(1 + 0.2*$1)) || $8 != 7 || !near($9, $7*$7)) exit 1 } END { exit NR != 20 }'
   [ "$(h5dump -a /PartType0/Colour/unit a.h5 | sed -n 's/.*(0): "\(.*\)"/\1/p')" = 'kg^2/m^6' ]
+  [ "$(alter -s 'phi=2' rod.h5 | columns -f phi | sort -u | tr '\n' ' ')" = '# phi [1] 2 ' ] # not the schema's own short name of Potential
   alter -t 3min -o b.h5 a.h5
   [ "$(columns -f 'Colour' b.h5)" = "$(columns -f 'Colour' a.h5)" ]
 }

@@ -60,6 +60,7 @@ static int target(Target *t, Parts *p, char *name, const char *unit, Err *err)
   int width = 1, k = 0;
   if (dot) name[dot - name] = 0;
   t->f = part_field(name), t->at = NULL, t->step = 1;
+  if (t->f && strcmp(t->f->name, name)) t->f = NULL; /* 'u' is not InternalEnergy here */
   if (t->f && !part_array(p, t->f) && part_add(p, t->f->member, err)) return -1;
   if (t->f) width = t->f->width, t->at = part_array(p, t->f), t->unit = t->f->unit;
   for (int e = 0; e < p->extras && !t->f; e++)

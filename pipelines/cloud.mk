@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The collapse of a rotating cold cloud with a disturbance of two arms: its density against time, and two condensations in the end.
+#   make -f pipelines/cloud.mk [SIZE=small|medium|large]
+# Boss & Bodenheimer (1979), ApJ 234, 289, as in Schaefer et al. (2016), section 4.2: one solar mass in 3.2e14 m, 10 K, Omega 1.6e-12/s,
+# density 1 + 0.5 cos(2 phi). Times in free-fall times of M and R, 5.519e11 s (the paper's 5.529e11 fits neither M and R nor its density).
+
+# particles
+N = $(call by_size,8200,137000,2000000)
+# further settings of the solver, KEY=VALUE
+SET =
+
+# ------------------------------------------------------------------------------------------------------------------------------
+
+here := $(dir $(lastword $(MAKEFILE_LIST)))
+include $(here)lab.mk
+pictures = $(OUT)/cloud.png $(OUT)/midplane.png
+
+# Azimuths phi of a uniform ball go to f with f + 0.25 sin 2f = phi: equal masses, the density follows.
+turn = -s 'f=atan2(Coordinates.y, Coordinates.x)' -s 'phi=f' $(foreach k,1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16,-s 'f=phi - 0.25*sin(2*f)')
+$(call from,$(OUT)/start.h5,$(N))
+$(OUT)/start.h5: | $(programs)
+	@mkdir -p $(@D)
+	mkshape --size 3.2e14,3.2e14,3.2e14 -n $(vars) --neighbours 50 -l cold_hydrogen:rho=1.4487e-14 --rotate 1 | \
+	  alter $(turn) -s 'd=hypot(Coordinates.x, Coordinates.y)' -s 'Coordinates.x=d*cos(f)' -s 'Coordinates.y=d*sin(f)' \
+	    -s 'Velocities.x=-1.6e-12*Coordinates.y/1s' -s 'Velocities.y=1.6e-12*Coordinates.x/1s' > $@
+	$(remember)
+settings = $(call sets,gravity.theta=0.5 density=sum smoothing.mode=neighbours smoothing.neighbours=50 smoothing.min=0.001 kernel=cubic_spline $(SET))
+$(call from,$(OUT)/density.tsv,--end 6.6228e11 --every 2.7595e10 $(settings))
+$(OUT)/density.tsv: $(OUT)/start.h5
+	$(call run,$(OUT)/run)
+	printf '# t/t_ff\tlargest density[kg/m^3]\n' > $@
+	k=0; for s in $(OUT)/run/snap_*.h5; do columns -f Density $$s | \
+	  awk -v t=$$k '!/^#/ && $$1 + 0 > top { top = $$1 + 0 } END { print t*0.05 "\t" top }'; k=$$((k + 1)); done >> $@
+	$(remember)
+$(OUT)/arms.tsv: $(OUT)/density.tsv
+	columns -f Coordinates.x -f Coordinates.y -f Density -w 'Density > 0' $$(ls $(OUT)/run/snap_*.h5 | tail -1) > $@
+
+$(OUT)/verdict.tsv: $(here)cloud.awk $(OUT)/density.tsv $(OUT)/arms.tsv
+	$(call judge,cloud.awk) -v n=$(N) $(OUT)/density.tsv $(OUT)/arms.tsv $(OUT)/run/conserved.tsv > $@
+$(OUT)/cloud.png: $(here)cloud.gp $(OUT)/density.tsv
+	gnuplot -c $^ $@
+$(OUT)/midplane.png: $(OUT)/density.tsv
+	render --view slice --color Density --log --extent 4e14 --size 1200x600 --panels 2x1 -o $@ $(OUT)/run/snap_0020.h5 $(OUT)/run/snap_0024.h5
