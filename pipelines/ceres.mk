@@ -43,9 +43,9 @@ include $(here)common.mk
 include $(here)recipes.mk
 runs := $(foreach a,$(ANGLE),$(foreach v,$(SPEED),$(OUT)/N$(N)-s$(SEED)/a$a-v$v))
 pictures := cut.png damage.png end-1.png $(if $(shell command -v gnuplot),conserved.png spectrum.png masses.png)
-analysis := dumps.tsv frames.txt before.tsv after.tsv fragments.h5 fragments.tsv clumps.tsv report.txt checked $(pictures) end-2.png
+analysis := dumps.tsv frames.txt before.tsv after.tsv fragments.h5 fragments.tsv clumps.tsv report.txt checked report.html $(pictures) end-2.png
 
-all: $(foreach r,$(runs),$(addprefix $r/,$(pictures) checked))
+all: $(foreach r,$(runs),$(addprefix $r/,$(pictures) checked report.html))
 check: $(runs:%=%/checked)
 
 # Both bodies, from the library, have the mass of Ceres; their particles have the same volume: (0.7/2700 + 0.3/917) to 1/2700 m^3/kg.
@@ -142,6 +142,15 @@ report = geometry.tsv before.tsv after.tsv fragments.tsv clumps.tsv run/conserve
 	@cat $<
 	@! grep -q '^FAILED' $<
 	@touch $@
+
+# One page with all of it, also when a check fails.
+%/report.html: %/report.txt %/clumps.tsv $(addprefix %/,$(pictures))
+	@cd $*; all=(); add() { [ ! -e "$$1" ] || all+=(-p "$$1:$$2"); }; \
+	add cut.png 'The impact, cut open along the plane of the orbit.'; add damage.png 'Damage: 0 intact, 1 fully damaged.'; \
+	add end-1.png 'The largest fragment at the end.'; add end-2.png 'The second.'; add masses.png 'The largest bodies against time.'; \
+	add spectrum.png 'How many fragments are at least that massive, without the largest.'; \
+	report -o report.html -t '$(title)' "$${all[@]}" -x report.txt:'Beside the numbers of the paper' \
+	  -T fragments.tsv:Fragments -T clumps.tsv:'Bound bodies' run
 
 post:
 	@rm -f $(foreach r,$(runs),$(addprefix $r/,$(analysis)))

@@ -25,7 +25,8 @@ forms := $(planet) $(planet)-sum $(planet)-miscible
 tables := $(to)/standard.tsv $(to)/miscible.tsv
 $(call library,$(forms))
 
-all: $(to)/checked $(if $(shell command -v gnuplot),$(to)/protoearth.png)
+figure := $(if $(shell command -v gnuplot),$(to)/protoearth.png)
+all: $(to)/checked $(figure) $(to)/report.html
 
 # Material, radius, pressure, density, support of each particle.
 $(to)/standard.tsv: $(call body,$(planet)-sum)
@@ -50,6 +51,11 @@ $(to)/checked: $(to)/report.txt
 	@cat $<
 	@! grep -q 'FAILED' $<
 	@touch $@
+
+# One page with all of it.
+$(to)/report.html: $(to)/report.txt $(figure) $(call body,$(planet)-miscible)
+	@report -g -o $@ -t 'A proto-Earth of $(N) particles' -x $<:'What was reached' \
+	  $(figure:%=-p %:'Pressure and density, standard and miscible SPH beside the structure in one dimension.') $(lastword $^)
 
 clean:
 	rm -rf $(OUT)

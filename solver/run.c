@@ -180,6 +180,9 @@ int run_system(const RunOptions *o, const Param *par, Parts *parts, Err *err)
     else
       *err = late, rc = -1;
   }
+  if (r.sim.step > r.first_step)
+    output_log(&r.out, "%.4g s of wall clock for %ld steps", progress_clock() - r.began,
+               r.sim.step - r.first_step);
   if (rc < 0) output_log(&r.out, "failed: %s", err->text);
   if (rc < 0 && running && output_has_checkpoint(o->dir)) {
     size_t used = strlen(err->text);

@@ -13,7 +13,7 @@ setup() {
 # A program that notes its call, and writes its arguments to the file after -o, or to stdout.
 mock() {
   mkdir -p "$mock"
-  for name in mksphere relax weibull collide solver fof clumps render conserved histo track; do
+  for name in mksphere relax weibull collide solver fof clumps render report conserved histo track; do
     { echo '#!/bin/bash'
       echo 'name=${0##*/}; echo "$name $*" >>"$CALLS"'
       echo '[ "$name" = "$FAILING" ] && { echo "$name: no" >&2; exit ${CODE:-1}; }'
@@ -49,8 +49,8 @@ study() { make -s -f pipelines/ceres.mk BIN="$mock" N=100 OUT="$OUT" LIBRARY="$O
 called() { [ ! -f "$CALLS" ] || cut -d' ' -f1 "$CALLS" | sort -u | tr '\n' ' '; rm -f "$CALLS"; }
 expect() { [ "$1" = "$2" ] || { echo "expected '$1', got '$2'"; return 1; }; }
 words() { printf '%s\n' "$@" | sort | tr '\n' ' '; }
-everything='clumps collide conserved fof histo mksphere relax render solver track weibull '
-analysis='clumps conserved fof histo render track '
+everything='clumps collide conserved fof histo mksphere relax render report solver track weibull '
+analysis='clumps conserved fof histo render report track '
 
 @test "a study is made once, and nothing of it twice" {
   mock
@@ -64,7 +64,7 @@ analysis='clumps conserved fof histo render track '
 @test "a changed variable remakes what depends on it" {
   mock
   study && called
-  study LEAST=9 && expect 'fof histo render track ' "$(called)"
+  study LEAST=9 && expect 'fof histo render report track ' "$(called)"
   study LEAST=9 EVERY=10 && expect "$(words $analysis solver)" "$(called)"
   study LEAST=9 EVERY=10 DISTANCE=9000 && expect "$(words $analysis collide solver)" "$(called)"
   study LEAST=9 EVERY=10 DISTANCE=9000 ICE=ice_lange
@@ -158,6 +158,7 @@ analysis='clumps conserved fof histo render track '
   grep -q '^ok .*at rest' "$run_dir/report.txt" && grep -q '^ok .*total energy' "$run_dir/report.txt"
   grep -q '^n/a .*escape each other (the run ends' "$run_dir/report.txt" && ! grep FAILED "$run_dir/report.txt"
   for picture in cut damage end-1; do [ "$(head -c 4 "$run_dir/$picture.png" | tail -c 3)" = PNG ]; done
+  [ "$(grep -o '<img' "$run_dir/report.html" | wc -l)" -ge 4 ] && grep -q 'Beside the numbers of the paper' "$run_dir/report.html"
 }
 
 # In another folder, with another BIN: no solver, nothing that makes bodies; of the run only what a person would keep.
