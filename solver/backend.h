@@ -7,7 +7,7 @@
 
 #include "param.h"
 #include "passes.h"
-#include "points.h"
+#include "leave.h"
 
 /* Sums over all particles in a fixed order, independent of threads. SI; energies in J. */
 struct Sums {
@@ -70,6 +70,10 @@ struct backend {
   void (*density)(Sim *sim);
   void (*force)(Sim *sim);
   int (*gravity)(Sim *sim, Err *err);
+  /* leaving: how many particles the test sends away. keep: only the particles kept[n], ascending,
+   * stay, in this order; what no search moves is lost. */
+  int (*leaving)(Sim *sim, const Leave *test, long *count, Err *err);
+  int (*keep)(Sim *sim, const uint32_t *kept, long n, Err *err);
   /* points: adds the pull of these masses at x to acc; reaction [field->n]: what each does. */
   int (*points)(Sim *sim, const PointField *field, PointReaction *reaction, Err *err);
   /* Reductions (reduce.h). bodies: centre, velocity and spin of each body id below BODIES, for
@@ -110,6 +114,7 @@ struct Sim {
   int pull_due, outer_steps, outer;
   double outer_time, outer_kick;
   PointMasses points;
+  Gone gone;         /* what has left */
   int slots, memory; /* of the integrator: saved states, rates of the step before */
   double dt_before;  /* length of the last step [s]; 0: there is none */
   BackendTimer timer[TIMERS];

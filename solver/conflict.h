@@ -12,6 +12,8 @@
 #define CONFLICTS(C) \
   C("gravity.every", "integrator", p->gravity_every > 1 && integrator_of(p->integrator) != &integrator_leapfrog, \
     "only leapfrog kicks with gravity in steps of its own") \
+  C("escape.from", "gravity.method", p->escape_from == PARAM_DEEPEST && p->gravity == PARAM_NONE, \
+    "without self-gravity no particle lies deepest") \
   C("step.max", "step.min", p->step_max > 0 && p->step_max <= p->step_min, "no step is left between the two") \
   C("heating.profile", "heating.radius", p->deposit_profile && p->deposit_radius == 0, "it needs a radius") \
   C("heating.begin", "heating.end", p->deposit_begin >= p->deposit_end, "no time is left between the two") \
@@ -38,6 +40,11 @@
   U("smoothing.neighbours", p->smoothing != PARAM_NEIGHBOURS, "smoothing.mode") \
   U("smoothing.min", p->smoothing == PARAM_FIXED, "smoothing.mode") \
   U("smoothing.max", p->smoothing == PARAM_FIXED, "smoothing.mode") \
+  U("sink.rule", !points_sinks(s), "no point mass has a radius") \
+  U("sink.every", !points_sinks(s), "no point mass has a radius") \
+  U("escape.from", !(p->escape_distance > 0), "escape.distance") \
+  U("escape.unbound", !(p->escape_distance > 0), "escape.distance") \
+  U("escape.every", !(p->escape_distance > 0), "escape.distance") \
   U("step.points", s->points.n < 2, "there are no two point masses") \
   U("step.error", integrator_of(p->integrator) != &integrator_rk2_adaptive, "integrator") \
   U("damping.radial", !(p->damping > 0), "damping.rate") \

@@ -16,7 +16,10 @@ static const char HEADER[] = "# "
                              "step\ttime[s]\tdt[s]\tlimit\tparticle\tE_kinetic[J]\tE_internal[J]"
                              "\tE_potential[J]\tE_total[J]\tp_x[kg*m/s]\tp_y[kg*m/s]\t"
                              "p_z[kg*m/s]\tL_x[kg*m^2/s]\tL_y[kg*m^2/s]\tL_z[kg*m^2/"
-                             "s]\tsum_mv[kg*m/s]\tsum_mrv[kg*m^2/s]\tmass[kg]\tx[m]\ty[m]\tz[m]\n";
+                             "s]\tsum_mv[kg*m/s]\tsum_mrv[kg*m^2/s]\tmass[kg]\tx[m]\ty[m]\tz[m]"
+                             "\tparticles\tm_gone[kg]\tE_gone[J]\tp_gone_x[kg*m/s]"
+                             "\tp_gone_y[kg*m/s]\tp_gone_z[kg*m/s]\tL_gone_x[kg*m^2/s]"
+                             "\tL_gone_y[kg*m^2/s]\tL_gone_z[kg*m^2/s]\n";
 
 static void name_of(const char *dir, const char *name, char *path, size_t size)
 {
@@ -88,11 +91,13 @@ int output_resume(Output *o, double start, double every, double end, const Sim *
   o->start = start, o->every = every, o->end = end;
   while (output_due(o) <= sim->time && output_due(o) < end) o->next++;
   if (sim->time >= end) o->next++;
+  if (archive_resume(&o->archive, o->dir, sim->step, err)) return -1;
   return output_table(o, "conserved.tsv", HEADER, sim->step, &o->conserved, err);
 }
 
 void output_close(Output *o)
 {
+  archive_free(&o->archive);
   if (o->conserved) fclose(o->conserved);
   if (o->log) fclose(o->log);
   o->conserved = o->log = NULL;
@@ -130,6 +135,9 @@ int output_conserved(Output *o, Sim *sim, const SimStep *done, Err *err)
   for (int d = 0; d < 3; d++) fprintf(o->conserved, "\t%.12g", s.angular[d]);
   fprintf(o->conserved, "\t%.9g\t%.9g\t%.15g", s.scale_momentum, s.scale_angular, s.mass);
   for (int d = 0; d < 3; d++) fprintf(o->conserved, "\t%.9g", s.centre[d]);
+  fprintf(o->conserved, "\t%ld\t%.15g\t%.12g", sim->s.n, sim->gone.mass, sim->gone.energy);
+  for (int d = 0; d < 3; d++) fprintf(o->conserved, "\t%.12g", sim->gone.momentum[d]);
+  for (int d = 0; d < 3; d++) fprintf(o->conserved, "\t%.12g", sim->gone.angular[d]);
   fputc('\n', o->conserved);
   if (fflush(o->conserved))
     return err_set(err, "cannot write '%s/conserved.tsv': %s", o->dir, strerror(errno));
@@ -163,7 +171,8 @@ static int write_snapshot(void *data, Err *err)
   char path[4096], name[32];
   snprintf(name, sizeof name, "snap_%04ld.h5", o->index);
   name_of(o->dir, name, path, sizeof path);
-  if (o->sim->b->fetch(o->sim, o->parts, err) || snap_write(o->parts, path, 0, err) ||
+  if (o->sim->b->fetch(o->sim, o->parts, err) ||
+      archive_write(&o->archive, o->dir, o->parts, err) || snap_write(o->parts, path, 0, err) ||
       write_series(o, err))
     return -1;
   output_log(o, "%s at step %ld, t = %.9g s", name, o->step, o->time);
@@ -178,7 +187,9 @@ static int write_checkpoint(void *data, Err *err)
   name_of(o->dir, "checkpoint.h5", path, sizeof path);
   name_of(o->dir, "checkpoint_prev.h5", before, sizeof before);
   name_of(o->dir, "checkpoint_new.h5", fresh, sizeof fresh);
-  if (o->sim->b->fetch(o->sim, o->parts, err) || snap_write(o->parts, fresh, 1, err)) return -1;
+  if (o->sim->b->fetch(o->sim, o->parts, err) ||
+      archive_write(&o->archive, o->dir, o->parts, err) || snap_write(o->parts, fresh, 1, err))
+    return -1;
   if (rename(path, before) && errno != ENOENT)
     return err_set(err, "cannot rename '%s': %s", path, strerror(errno));
   if (rename(fresh, path)) return err_set(err, "cannot rename '%s': %s", fresh, strerror(errno));

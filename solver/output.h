@@ -5,6 +5,7 @@
 #define OUTPUT_H
 
 #include <stdio.h>
+#include "archive.h"
 #include "sim.h"
 #include "writer.h"
 
@@ -15,6 +16,7 @@ typedef struct {
   FILE *conserved, *log;
   double outside[3], most_outside; /* particles outside their tables: at the last look; ever */
   Writer writer;
+  Archive archive; /* of what has left */
   /* What the writer is at: a snapshot or a checkpoint, of this state. */
   Sim *sim;
   Parts *parts;

@@ -140,6 +140,18 @@ static const CfgRow analysis[] = {
   {"window", CFG_INT, AT(analysis_window), NULL, "10", 2, 1000, "lines of bound.tsv that must agree"},
   {"after", CFG_REAL, AT(analysis_after), "s", "0", -1e300, 1e300, "time from which lines count for `converged`; 0 is the contact"},
 };
+static const CfgRow sink[] = {
+  {"rule", CFG_CHOICE, AT(sink_bound), "all|bound", "all", ANY,
+   "which of the particles within its radius a sink takes: all, or what is bound and slower around it than a circular orbit at the radius"},
+  {"every", CFG_INT, AT(sink_every), NULL, "1", 1, 1e9, "steps between looks for what sinks take"},
+};
+static const CfgRow escape[] = {
+  {"distance", CFG_REAL, AT(escape_distance), "m", "0", 0, 1e150, "particles further away go to escaped.h5; 0: none do"},
+  {"from", CFG_CHOICE, AT(escape_from), "centre|origin|point|deepest", "centre", ANY,
+   "away from the centre of mass of all, the origin at rest, the first point mass, or the particle deepest in the potential"},
+  {"unbound", CFG_BOOL, AT(escape_unbound), NULL, "true", ANY, "only with v^2/2 + phi > 0, v as seen from there"},
+  {"every", CFG_INT, AT(escape_every), NULL, "10", 1, 1e9, "steps between looks for what escapes"},
+};
 /* Each of the list point_masses. */
 #define OF(MEMBER) offsetof(PointMass, MEMBER)
 static const CfgRow point[] = {
@@ -147,6 +159,7 @@ static const CfgRow point[] = {
   {"position", CFG_VECTOR, OF(x), "m", "0,0,0", ANY, "three lengths"},
   {"velocity", CFG_VECTOR, OF(v), "m/s", "0,0,0", ANY, "three speeds"},
   {"softening", CFG_REAL, OF(h), "m", "0", 0, 1e300, "its pull is softened within this distance, as between particles; 0: nowhere"},
+  {"radius", CFG_REAL, OF(radius), "m", "0", 0, 1e150, "of the sink: it takes particles that come this close; 0: none"},
   {"fixed", CFG_BOOL, OF(fixed), NULL, "false", ANY, "it stays where it is"},
   {"deaf", CFG_BOOL, OF(deaf), NULL, "false", ANY, "only other point masses pull on it, so momentum is not kept"},
 };
@@ -170,6 +183,8 @@ static const Group groups[] = {GROUP("", top),
                                GROUP("boundary", boundary),
                                GROUP("walls", walls),
                                GROUP("layer", layer),
+                               GROUP("sink", sink),
+                               GROUP("escape", escape),
                                GROUP("output", output),
                                GROUP("analysis", analysis)};
 enum { GROUPS = sizeof groups / sizeof *groups };

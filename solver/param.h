@@ -14,6 +14,7 @@ enum { PARAM_NONE, PARAM_TREE, PARAM_DIRECT };
 enum { PARAM_FULL, PARAM_ISENTROPIC, PARAM_FROZEN };
 enum { PARAM_MIXED, PARAM_DOUBLE };
 enum { PARAM_OPEN, PARAM_PERIODIC, PARAM_MIRROR, PARAM_MIRROR_LOW, PARAM_MIRROR_HIGH };
+enum { PARAM_CENTRE, PARAM_ORIGIN, PARAM_POINT, PARAM_DEEPEST };
 
 enum { PARAM_POINTS = 32 };
 
@@ -41,6 +42,8 @@ typedef struct {
   double analysis_every, analysis_link, analysis_theta, analysis_virial, analysis_converged,
       analysis_after;
   int analysis_method, analysis_criterion, analysis_least, analysis_window;
+  int sink_bound, sink_every, escape_from, escape_unbound, escape_every;
+  double escape_distance;
   PointMass point[PARAM_POINTS]; /* [points] */
   int points;
 } Param;

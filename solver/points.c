@@ -14,6 +14,8 @@ int points_open(Sim *sim, const Parts *p, Err *err)
   if (q->n > POINTS)
     return err_set(err, "the input has %d point masses, a run takes %d", q->n, POINTS);
   memcpy(q->p, from, (size_t)q->n * sizeof *from);
+  if (par->escape_distance > 0 && par->escape_from == PARAM_POINT && !q->n)
+    return err_set(err, "escape.from = point: there is no point mass");
   return pointmass_check(q->p, q->n, p->dimension, err);
 }
 
@@ -77,17 +79,43 @@ static void pull_each_other(PointMasses *q, double G)
     }
 }
 
+int points_sinks(const Sim *sim)
+{
+  for (int k = 0; k < sim->points.n; k++)
+    if (sim->points.p[k].radius > 0) return 1;
+  return 0;
+}
+
+void points_field(const Sim *sim, PointField *field)
+{
+  field->n = sim->points.n;
+  for (int i = 0; i < field->n; i++) {
+    PointSource *s = &field->at[i];
+    memcpy(s->x, sim->points.p[i].x, sizeof s->x);
+    s->gm = sim->par.G * sim->points.p[i].m, s->h = sim->points.p[i].h;
+  }
+}
+
+void points_take(PointMass *p, double m, const double x[3], const double v[3])
+{
+  const double part = p->fixed ? 0 : m / (p->m + m), reduced = p->fixed ? m : p->m * part;
+  double d[3], w[3];
+  for (int k = 0; k < 3; k++) d[k] = x[k] - p->x[k], w[k] = v[k] - p->v[k];
+  for (int k = 0; k < 3; k++) {
+    const int a = (k + 1) % 3, b = (k + 2) % 3;
+    p->spin[k] += reduced * (d[a] * w[b] - d[b] * w[a]);
+    p->x[k] += part * d[k], p->v[k] += part * w[k];
+  }
+  p->m += m, p->taken += m, p->count++;
+}
+
 int points_exchange(Sim *sim, Err *err)
 {
   PointMasses *q = &sim->points;
   PointReaction r[POINTS];
-  PointField field = {.n = q->n};
+  PointField field;
   if (!q->n) return 0;
-  for (int i = 0; i < q->n; i++) {
-    PointSource *s = &field.at[i];
-    memcpy(s->x, q->p[i].x, sizeof s->x);
-    s->gm = sim->par.G * q->p[i].m, s->h = q->p[i].h;
-  }
+  points_field(sim, &field);
   if (sim->b->points(sim, &field, r, err)) return -1;
   q->energy = 0;
   for (int i = 0; i < q->n; i++) {

@@ -64,6 +64,15 @@ HD void points_merge(PointReaction *a, const PointReaction *b)
   for (int k = 0; k < 3; k++) a->f[k] += b->f[k];
 }
 
+/* points_sinks: whether any of them takes particles. */
+int points_sinks(const Sim *sim);
+
+/* points_field: the masses as a backend sees them. points_take: p becomes one with a particle of
+ * mass m at x with velocity v: mass, momentum, centre of mass, angular momentum stay, the last as
+ * spin; what is fixed stays where it is. */
+void points_field(const Sim *sim, PointField *field);
+void points_take(PointMass *p, double m, const double x[3], const double v[3]);
+
 /* points_open: those of the file if it has any, else those of the settings; checks them.
  * points_store: into parts.
  */

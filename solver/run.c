@@ -75,7 +75,9 @@ static int fresh(Run *r, const Param *par, Err *err)
 static int same_run(const Parts *checkpoint, const Param *par, Parts *input, Err *err)
 {
   if (param_record(par, input, err)) return -1;
-  if (checkpoint->n != input->n)
+  const double escaped = part_number(checkpoint, "run", "EscapedNumber"),
+               accreted = part_number(checkpoint, "run", "AccretedNumber");
+  if ((double)checkpoint->n + (isnan(escaped) ? 0 : escaped + accreted) != (double)input->n)
     return err_set(err,
                    "the checkpoint has %ld particles, the input %ld: it belongs to another run",
                    checkpoint->n, input->n);
@@ -119,13 +121,34 @@ static void show(Run *r, const SimStep *done)
   progress_show(&r->bar, (r->sim.time - r->out.start) / (r->o->end - r->out.start), note);
 }
 
+/* What leaves after this step. */
+static int let_leave(Run *r, Err *err)
+{
+  Output *o = &r->out;
+  LeaveFound found;
+  Parts *gone[ARCHIVES];
+  const long step = r->sim.step;
+  if (!leave_possible(&r->sim)) return 0;
+  if (leave_find(&r->sim, &found, err)) return -1;
+  if (!found.where) return 0;
+  if (output_wait(o, err) ||
+      leave_take(&r->sim, &found, r->parts, &gone[ARCHIVE_ESCAPED], &gone[ARCHIVE_ACCRETED], err))
+    return -1;
+  output_log(o, "step %ld, t = %.9g s: %ld particles leave (%ld escape), %ld are left", step,
+             r->sim.time, found.leaving, gone[ARCHIVE_ESCAPED] ? gone[ARCHIVE_ESCAPED]->n : 0,
+             r->sim.s.n);
+  for (int k = 0; k < ARCHIVES; k++)
+    if (archive_add(&o->archive, k, gone[k], err)) return -1;
+  return 0;
+}
+
 /* After each step: lines, snapshots, checkpoints. Returns 1 to go on, 0 when done, 3 to stop, -1 on
  * error. */
 static int look_around(Run *r, const SimStep *done, Err *err)
 {
   int due = r->sim.time >= output_due(&r->out), converged;
   show(r, done);
-  if (output_look(&r->out, err) || analyse(r, err)) return -1;
+  if (output_look(&r->out, err) || let_leave(r, err) || analyse(r, err)) return -1;
   converged = analysis_converged(&r->analysis, &r->sim.par);
   if (due || converged || r->sim.step % r->sim.par.log_every == 0)
     if (output_conserved(&r->out, &r->sim, done, err)) return -1;

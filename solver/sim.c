@@ -221,7 +221,8 @@ int sim_restart(Sim *sim, const Param *par, const Parts *p, const char *device, 
     return err_set(
         err, "the checkpoint lacks the attributes of /Run: it is a snapshot, not a checkpoint");
   }
-  if (par->gravity_every > 1 && restart_outer(sim, p, err)) return sim_close(sim), -1;
+  if ((par->gravity_every > 1 && restart_outer(sim, p, err)) || leave_load(sim, p, err))
+    return sim_close(sim), -1;
   if (hand_over(sim, p, err)) return sim_close(sim), -1;
   return 0;
 }
@@ -332,7 +333,7 @@ int sim_send(Sim *sim, Parts *p, Err *err)
       (sim->porous && part_add(p, "alpha", err)) || (sim->heated && part_add(p, "T", err)) ||
       (sim->memory &&
        (part_add(p, memory, err) || part_set_number(p, "run", "LastStep", sim->dt_before, err))) ||
-      points_store(sim, p, err) || sim->b->store(sim, p, err))
+      points_store(sim, p, err) || leave_store(sim, p, err) || sim->b->store(sim, p, err))
     return -1;
   p->time = sim->time;
   if (sim->par.gravity_every > 1 &&

@@ -25,6 +25,16 @@ static const Case unused[] = {
      "smoothing.min = 0.5 has no effect: smoothing.mode = fixed"},
     {"smoothing.max=2", "smoothing.mode=fixed", "smoothing.mode=density",
      "smoothing.max = 2 has no effect: smoothing.mode = fixed"},
+    {"sink.rule=bound", "gravity.method=tree", "gravity.method=tree",
+     "sink.rule = bound has no effect: no point mass has a radius"},
+    {"sink.every=3", "gravity.method=tree", "gravity.method=tree",
+     "sink.every = 3 has no effect: no point mass has a radius"},
+    {"escape.from=origin", "escape.distance=0", "escape.distance=1",
+     "escape.from = origin has no effect: escape.distance = 0"},
+    {"escape.unbound=false", "escape.distance=0", "escape.distance=1",
+     "escape.unbound = false has no effect: escape.distance = 0"},
+    {"escape.every=3", "escape.distance=0", "escape.distance=1",
+     "escape.every = 3 has no effect: escape.distance = 0"},
     {"step.points=0.1", "gravity.method=tree", "gravity.method=tree",
      "step.points = 0.1 has no effect: there are no two point masses"},
     {"step.error=1e-3", "integrator=leapfrog", "integrator=rk2-adaptive",
@@ -65,6 +75,9 @@ static const Case conflicts[] = {
     {"gravity.every=2", "integrator=rk2-adaptive", "integrator=leapfrog",
      "gravity.every = 2 cannot go with integrator = rk2-adaptive: only leapfrog kicks with gravity "
      "in steps of its own"},
+    {"escape.from=deepest", "gravity.method=none", "gravity.method=tree",
+     "escape.from = deepest cannot go with gravity.method = none: without self-gravity no particle "
+     "lies deepest"},
     {"step.max=1e-3", "step.min=1e-2", "step.min=1e-4",
      "step.max = 0.001 cannot go with step.min = 0.01: no step is left between the two"},
     {"heating.profile=gaussian", "heating.radius=0", "heating.radius=1",
@@ -86,7 +99,8 @@ static void check(const Case *c, long n, long rows, int (*look)(const Param *, c
     Err err;
     assert_int_equal(look(&bad, sim, &err), -1);
     assert_string_equal(err.text, c[k].text);
-    some.points.n = strncmp(c[k].key, "step.points", 11) ? 0 : 2; /* makes it fine */
+    some.points.n = strstr(c[k].text, "point mass") ? 2 : 0; /* makes it fine */
+    some.points.p[1].radius = 1;
     if (look(&good, &some, &err) || look(&without, sim, &err)) fail_msg("%s", err.text);
   }
 }

@@ -73,8 +73,54 @@ static void exchange(void **state)
   part_free(p), part_free(q);
 }
 
+/* Looks after each step; how many have left. */
+static long run_and_leave(Sim *sim, Parts *p, double until)
+{
+  const long n = sim->s.n;
+  Err err;
+  SimStep done;
+  while (sim->time < until) {
+    LeaveFound found;
+    Parts *gone[2];
+    if (sim_advance(sim, until, &done, &err) || leave_find(sim, &found, &err))
+      fail_msg("%s", err.text);
+    if (!found.where) continue;
+    if (leave_take(sim, &found, p, &gone[0], &gone[1], &err)) fail_msg("%s", err.text);
+    part_free(gone[0]), part_free(gone[1]);
+  }
+  lab_store(sim, p);
+  return n - sim->s.n;
+}
+
+/* The same particles leave both, and what is left is the same, in the same rows. */
+static void leaving(void **state)
+{
+  static const char *const integrators[] = {"integrator=leapfrog", "integrator=rk2-adaptive"};
+  (void)state;
+  for (int k = 0; k < 2; k++) {
+    Parts *p = fall(), *q = fall();
+    Param par = lab_param("gravity.G=0.1", "precision=double", "gravity.method=direct",
+                          integrators[k], "step.max=0.05", "escape.distance=6",
+                          "escape.unbound=false", "escape.every=2", NULL);
+    Sim sim[2];
+    p->point[0].radius = 2.5;
+    open_both(sim, &par, p);
+    const long n = run_and_leave(&sim[0], p, 1), m = run_and_leave(&sim[1], q, 1);
+    print_message("%ld of %ld leave\n", n, n + p->n);
+    assert_true(n == m && n > 5 && p->n > 20 && q->n == p->n);
+    assert_true(sim[1].gone.accreted == sim[0].gone.accreted && sim[0].gone.accreted > 0);
+    assert_memory_equal(p->id, q->id, (size_t)p->n * sizeof *p->id);
+    near(p->x, q->x, 3 * p->n, 1e-10, "positions");
+    near(p->v, q->v, 3 * p->n, 1e-9, "velocities");
+    near(p->point[0].x, q->point[0].x, 3, 1e-10, "place of the sink");
+    near(p->point[0].spin, q->point[0].spin, 3, 1e-10, "spin of the sink");
+    sim_close(&sim[0]), sim_close(&sim[1]);
+    part_free(p), part_free(q);
+  }
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(exchange)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(exchange), cmocka_unit_test(leaving)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

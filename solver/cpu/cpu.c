@@ -254,6 +254,30 @@ static void cpu_pass(Sim *sim, int pass, const Step *step)
   backend_end(sim, TIMER_LOCAL);
 }
 
+static int cpu_leaving(Sim *sim, const Leave *test, long *count, Err *err)
+{
+  const State *s = &sim->s;
+  long sum = 0;
+  (void)err;
+#pragma omp parallel for schedule(static) reduction(+ : sum)
+  for (long i = 0; i < s->n; i++) sum += leave_where(test, s, i) != LEAVE_STAYS;
+  *count = sum;
+  return 0;
+}
+
+static int cpu_keep(Sim *sim, const uint32_t *kept, long n, Err *err)
+{
+  Column column[COLUMNS];
+  const int columns = columns_of(sim, column);
+  (void)err;
+  for (int a = 0; a < columns; a++)
+    for (long i = 0; i < n; i++)
+      memmove(column[a].array + (size_t)i * column[a].size,
+              column[a].array + (size_t)kept[i] * column[a].size, column[a].size);
+  sim->s.n = sim->s.all = n;
+  return 0;
+}
+
 /* cpu_store leaves nothing to do. */
 static int cpu_fetch(Sim *sim, Parts *p, Err *err)
 {
@@ -273,5 +297,5 @@ static int cpu_cards(void) { return 1; }
 /* clang-format off */
 const struct backend backend_cpu = {
   "cpu", cpu_cards, cpu_open, cpu_close, cpu_store, cpu_fetch, cpu_copy, cpu_search, cpu_pass,
-  cpu_gradient, cpu_density, cpu_force, cpu_gravity, cpu_points, cpu_limits, cpu_sums, cpu_bodies, cpu_error};
+  cpu_gradient, cpu_density, cpu_force, cpu_gravity, cpu_leaving, cpu_keep, cpu_points, cpu_limits, cpu_sums, cpu_bodies, cpu_error};
 /* clang-format on */

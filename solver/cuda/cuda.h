@@ -141,6 +141,8 @@ void cuda_clock_close(Sim *sim);
 size_t cuda_order_bytes(Sim *sim);
 int cuda_order_open(Sim *sim, Err *err);
 int cuda_order(Sim *sim, Err *err); /* root, keys, sort, permutation; points if gravity is due */
+int cuda_leaving(Sim *sim, const Leave *test, long *count, Err *err);
+int cuda_keep(Sim *sim, const uint32_t *kept, long n, Err *err);
 void cuda_order_close(Sim *sim);
 /* cuda_images_find: behind the particles of the old order; cuda_images_order: of the new one.
  * cuda_images_room: rows to begin with. */

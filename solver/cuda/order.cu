@@ -371,6 +371,38 @@ int cuda_order(Sim *sim, Err *err)
   return launch_failed(error, err);
 }
 
+static __global__ void count_leaving(const State s, const __grid_constant__ Leave test, int *count)
+{
+  const long i = (long)blockIdx.x * THREADS + threadIdx.x;
+  if (i < s.n && leave_where(&test, &s, i) != LEAVE_STAYS) atomicAdd(count, 1);
+}
+
+int cuda_leaving(Sim *sim, const Leave *test, long *count, Err *err)
+{
+  Cuda *c = cuda_of(sim);
+  CudaError *error = &c->error;
+  int *leaving = (int *)c->scratch, host = 0;
+  CHECK(cudaMemsetAsync(leaving, 0, sizeof *leaving, c->stream));
+  LAUNCH(count_leaving, launch_blocks((size_t)sim->s.n, THREADS), THREADS, 0, c->stream, sim->s,
+         *test, leaving);
+  if (cuda_copy(sim, &host, leaving, sizeof host, err)) return -1;
+  *count = host;
+  return 0;
+}
+
+/* As into a new order, that of the particles kept. */
+int cuda_keep(Sim *sim, const uint32_t *kept, long n, Err *err)
+{
+  Cuda *c = cuda_of(sim);
+  CudaColumn column[CUDA_COLUMNS];
+  int all, columns = columns_of(sim, column, &all);
+  const int moved = columns;
+  if (cuda_copy(sim, c->order->from[0], kept, (size_t)n * sizeof *kept, err)) return -1;
+  sim->s.n = sim->s.all = n;
+  while (columns > 0) columns = permute_some(sim, column, columns, column + moved, all - moved);
+  return launch_failed(&c->error, err);
+}
+
 /* The spares of this run by their sizes: what arrays that are free cannot take. */
 static int spares_of(Sim *sim, int bytes[CUDA_COLUMNS])
 {
