@@ -24,8 +24,8 @@ ICE = ice
 # opening angle of the gravity tree, or direct sums: tree, direct
 THETA = 0.7
 GRAVITY = tree
-# steps from one evaluation of gravity to the next: with 200 000 particles four are 0.3 % of a free-fall time
-GRAVITY_EVERY = $(if $(gpu),4,1)
+# steps from one evaluation of gravity to the next: with 200 000 particles four are 0.3 % of a free-fall time, with few they are too long
+GRAVITY_EVERY = $(if $(gpu),$(shell [ $(N) -ge 20000 ] && echo 4 || echo 1),1)
 # further settings of the solver, KEY=VALUE (solver --parameters lists them)
 SET =
 # fragments of fewer particles are not listed; by default the mass of the paper's 20 of 200 000, and never fewer than 5
