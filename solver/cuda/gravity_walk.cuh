@@ -369,7 +369,8 @@ static __global__ void __launch_bounds__(128) walk_cut(const __grid_constant__ W
 /* walk_tree: one warp a block, as many as the card can have at work; 16 blocks or more share a
  * multiprocessor. */
 template <class Real>
-__global__ void __launch_bounds__(32, 16) walk_tree(const __grid_constant__ Walk w)
+__global__ void __launch_bounds__(32, sizeof(Real) == sizeof(float) ? 16 : 12)
+    walk_tree(const __grid_constant__ Walk w)
 {
   __shared__ WalkShared<Real> s;
   const int pieces = *w.queue.pieces;
