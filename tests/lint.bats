@@ -111,3 +111,20 @@ lines_of() { for ((k = 0; k < $1; k++)); do echo "$2"; done; }
   gcc -c -o build/solver/cpu/b.o solver/cpu/b.c
   found 'solver/cpu/b.c:1: exports other_b, not b_...'
 }
+
+@test "docs/coverage.md: what does not exist is found" {
+  mkdir repo && cd repo
+  cp -r "$BATS_TEST_DIRNAME/../docs" . && mkdir tests tools && cp "$BATS_TEST_DIRNAME/coverage" tests
+  (cd "$BATS_TEST_DIRNAME/.." && ls tests/*.c tests/*.cu tests/*.bats) | xargs touch
+  for d in "$BATS_TEST_DIRNAME"/../tools/*/; do mkdir "tools/$(basename "$d")"; done
+  for d in materials pipelines solver; do cp -r "$BATS_TEST_DIRNAME/../$d" .; done
+  [ "$(tests/coverage)" = "" ]
+  changed() { sed -i "$1" docs/coverage.md && tests/coverage | cut -d: -f 3- | sort -u; cp "$BATS_TEST_DIRNAME/../docs/coverage.md" docs; }
+  [ "$(changed 's/`gravity.theta`/`gravity.thta`/')" = ' no setting, law, option, field or file `gravity.thta`' ]
+  [ "$(changed 's/`eos.form = table`/`eos.form = tabel`/')" = ' no setting, law, option, field or file `eos.form = tabel`' ]
+  [ "$(changed 's/`integrator = ab2`/`integrator = ab3`/')" = ' no setting, law, option, field or file `integrator = ab3`' ]
+  [ "$(changed 's/`weibull --seed`/`weibull --seeds`/')" = ' no setting, law, option, field or file `weibull --seeds`' ]
+  [ "$(changed 's|`materials/ice.cfg`|`materials/ic.cfg`|')" = ' no setting, law, option, field or file `materials/ic.cfg`' ]
+  [ "$(changed 's/`test_every`/`test_ever`/')" = ' no test `test_ever`' ]
+  [ "$(changed '/^| `-a` opening/s/`test_gravity`/-/')" = ' a row without a test' ]
+}

@@ -45,6 +45,15 @@ like_whole() {
   grep -q 'damage\|cfl' conserved.tsv
 }
 
+@test "--profile: every pass with its share, which add up to the whole; the run is the same" {
+  solver -c ../run.cfg -o run --end +300s --every 300s --profile ../s.h5 2>passes
+  grep -q "^# pass.* particles, .* steps, " passes
+  for pass in 'neighbour search' 'loop A (gradient)' 'loop B (force)' gravity; do cut -f 1 passes | grep -qx "$pass"; done
+  true_that 'sum > 0.5*all && sum < 1.001*all' $(awk -F'\t' '$1 == "all" { print "all=" $3 } !/^#/ && $1 != "all" { s += $3 } END { print "sum=" s }' passes)
+  h5diff run/snap_0001.h5 "$BATS_FILE_TMPDIR/whole/run/snap_0001.h5" /PartType0 /PartType0
+  grep -q ' on cpu' run/run.log || [ "$BRECCIA_TEST_DEVICE" = cuda ]
+}
+
 @test "killed ten times at random moments: the bytes of the undisturbed run" {
   killed=0
   for ((try = 0; killed < 10 && try < 40; try++)); do
