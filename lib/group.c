@@ -7,6 +7,7 @@
 #include <string.h>
 #include <strings.h>
 #include <gsl/gsl_eigen.h>
+#include <hdf5.h>
 #include "group.h"
 #include "potential.h"
 #include "sort.h"
@@ -34,6 +35,7 @@
   X("E_kin", "J", g->e_kin) X("E_rot", "J", g->e_rot) X("E_th", "J", g->e_th) X("E_pot", "J", g->e_pot) \
   X("T/W", "1", -g->e_rot / g->e_pot) X("k_vir", "1", -2 * g->e_kin / g->e_pot) \
   X("peak_p_mean", "Pa", g->peak_mean) X("peak_p_max", "Pa", g->peak_max) \
+  X("T_mean", "K", g->T_mean) X("T_max", "K", g->T_max) \
   X("damage", "1", g->damage) X("damaged", "%", 100 * g->damaged) X("water", "%", 100 * g->water)
 /* clang-format on */
 
@@ -170,6 +172,31 @@ static void centre(Group *g, const Parts *p, const long *list)
   for (int a = 0; a < 3; a++) g->x[a] /= g->mass, g->v[a] /= g->mass;
 }
 
+/* The phases as eos fill writes them, a field outside the schema; NULL: there are none. */
+static const double *phases(const Parts *p)
+{
+  for (int k = 0; k < p->extras; k++) {
+    const PartExtra *e = &p->extra[k];
+    if (!strcmp(e->name, "PhaseID") && e->width == 1 && e->size == sizeof(double) &&
+        H5Tget_class((hid_t)e->type) == H5T_FLOAT)
+      return (const double *)(const void *)e->data;
+  }
+  return NULL;
+}
+
+/* Temperatures and masses by phase. */
+static void heat(Group *g, const Parts *p, const long *list)
+{
+  const double *phase = phases(p);
+  double sum = 0, most = 0;
+  for (long k = 0; k < g->n; k++) {
+    const long i = list[k];
+    if (p->T) sum += p->m[i] * p->T[i], most = fmax(most, p->T[i]);
+    if (phase && phase[i] >= 0 && phase[i] < GROUP_PHASES) g->phase[(int)phase[i]] += p->m[i];
+  }
+  g->T_mean = p->T ? sum / g->mass : NAN, g->T_max = p->T ? most : NAN;
+}
+
 static void contents(Group *g, const Parts *p, const long *list)
 {
   int bodies = g->bodies;
@@ -271,7 +298,7 @@ int group_measure(Group *g, const Parts *p, const long *list, long n, int bodies
   g->part = calloc((size_t)(bodies * p->materials + 1), sizeof *g->part);
   if (!g->part) return err_set(err, "out of memory");
   if (n == 0) return 0;
-  centre(g, p, list), contents(g, p, list), moments(g, p, list);
+  centre(g, p, list), contents(g, p, list), heat(g, p, list), moments(g, p, list);
   if (!spin(g, err) && !radii(g, p, list, err) &&
       ((theta < 0 && !phi) || !own_gravity(g, p, list, theta, phi, err)))
     return 0;
@@ -420,6 +447,7 @@ void group_header(FILE *f, const Parts *p, int bodies)
 #define HEAD(NAME, UNIT, ...) fputs("\t" NAME " [" UNIT "]", f);
   COLUMNS(HEAD)
 #undef HEAD
+  for (int k = 0; k < GROUP_PHASES && phases(p); k++) fprintf(f, "\tphase_%d [kg]", k);
   for (int c = 0; c < p->materials; c++) fprintf(f, "\t%s [%%]", p->material[c].name);
   for (int b = 0; b < bodies; b++) fprintf(f, "\tfrom_%d [kg]", b);
   for (int c = 0; c < p->materials; c++)
@@ -432,6 +460,7 @@ void group_row(FILE *f, const Group *g, const Group *s, const Parts *p)
 #define CELL(NAME, UNIT, ...) cell(f, __VA_ARGS__);
   COLUMNS(CELL)
 #undef CELL
+  for (int k = 0; k < GROUP_PHASES && phases(p); k++) fprintf(f, "\t%.9g", g->phase[k]);
   for (int c = 0; c < p->materials; c++) {
     double sum = 0;
     for (int b = 0; b < bodies; b++) sum += g->part[c * bodies + b];

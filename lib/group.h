@@ -10,14 +10,18 @@
 #include "orbit.h"
 #include "part.h"
 
+enum { GROUP_BODIES = 1024, GROUP_PHASES = 8 };
+
 typedef struct {
   long n;
   double mass, x[3], v[3];               /* kg; centre of mass m, m/s */
   double volume, rho, rho_mean, rho_max; /* sum m/rho m^3; mass/volume, mean over mass, largest
                                             kg/m^3 */
   double peak_mean,
-      peak_max; /* largest pressure so far: mean over mass, largest Pa; NAN without the
+      peak_max;         /* largest pressure so far: mean over mass, largest Pa; NAN without the
                                  field */
+  double T_mean, T_max; /* mean over mass, largest K; NAN without the field */
+  double phase[GROUP_PHASES]; /* kg with PhaseID 0, 1 ..., as eos fill has it */
   double radius, r50, r90,
       r99; /* of the sphere of this volume; around the centre with 50, 90, 99 % of the mass, m */
   double l[3];                  /* angular momentum about the own centre, kg m^2/s */
@@ -45,11 +49,9 @@ typedef struct {
   double x[3], v[3], mass, axis[3];
 } GroupCentre;
 
-enum { GROUP_BODIES = 1024 };
-
 /* GROUP_FIELDS: what group_measure needs; GROUP_MORE: what it shows when it is there. */
 #define GROUP_FIELDS "id x v m rho u h mat body"
-#define GROUP_MORE   " damage pmax"
+#define GROUP_MORE   " damage pmax T PhaseID"
 
 /* group_named: the particles that "body:0", "fragment:2" or "clump:1" means: those with
  * (*id)[i] == *which. Errors: another word, no number, the field is missing in `file`, none of them

@@ -340,10 +340,12 @@ static int get_extra(hid_t set, long n, PartExtra *x, Err *err)
 
 typedef struct {
   Parts *p;
+  const char *members;
   Err *err;
 } Extras;
 
-/* For each link in /PartType0: appends to the unknown fields what the schema does not know. */
+/* For each link in /PartType0: appends to the unknown fields what the schema does not know and is
+ * wanted. */
 static herr_t visit(hid_t particles, const char *name, const H5L_info_t *info, void *context)
 {
   (void)info;
@@ -351,7 +353,8 @@ static herr_t visit(hid_t particles, const char *name, const H5L_info_t *info, v
   Parts *p = e->p;
   Err why;
   if ((part_field(name) && !strcmp(part_field(name)->name, name)) || !strcmp(name, "FlawCount") ||
-      !strcmp(name, "FlawThresholds"))
+      !strcmp(name, "FlawThresholds") || !listed(e->members, name) ||
+      (e->members && part_field(name))) /* the word of a list means the schema's */
     return 0;
   PartExtra *grown = realloc(p->extra, ((size_t)p->extras + 1) * sizeof *grown);
   if (!grown) return err_set(e->err, "out of memory");
@@ -371,11 +374,11 @@ static int get_particles(hid_t file, Parts *p, const char *members, Err *err)
   if (!hdf_has(file, "PartType0")) return err_set(err, "no snapshot: lacks group 'PartType0'");
   hid_t g = H5Gopen2(file, "PartType0", H5P_DEFAULT);
   if (g < 0) return hdf_fail(err, "'PartType0'");
-  Extras e = {p, err};
+  Extras e = {p, members, err};
   err_set(err, "cannot list 'PartType0'");
   int rc = get_fields(g, p, members, err);
-  if (!rc && !members)
-    rc = get_flaws(g, p, err) || H5Literate(g, H5_INDEX_NAME, H5_ITER_INC, NULL, visit, &e) < 0;
+  if (!rc && !members) rc = get_flaws(g, p, err);
+  if (!rc) rc = H5Literate(g, H5_INDEX_NAME, H5_ITER_INC, NULL, visit, &e) < 0;
   H5Gclose(g);
   return rc ? -1 : 0;
 }

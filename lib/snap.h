@@ -16,9 +16,9 @@
  * part_check. */
 Parts *snap_read(const char *path, Err *err);
 
-/* snap_read_some: the same, but of the particle fields only `members` (names as in fields.h,
- * separated by blanks) that are there: neither other fields nor flaws. For programs that write no
- * snapshot. */
+/* snap_read_some: the same, but of the particle fields only `members` that are there (names as in
+ * fields.h, or the datasets of fields that the schema does not know; separated by blanks): neither
+ * other fields nor flaws. For programs that write no snapshot. */
 Parts *snap_read_some(const char *path, const char *members, Err *err);
 
 /* snap_write: path, or "-" or NULL for stdout (refused when it is a terminal). checkpoint != 0 also

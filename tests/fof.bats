@@ -126,6 +126,27 @@ fates() { placed "$@" && fof placed.h5 >table && column fate | tr '\n' ' '; }
   [ "$(fof <two.h5 | grep -v '^#')" = "$(fof two.h5 | grep -v '^#')" ]
 }
 
+# components ARGUMENTS: tests/components.py, where python has what it needs.
+components() { reads 'numpy h5py scipy.spatial scipy.sparse' "exec(open('$BATS_TEST_DIRNAME/components.py').read())" "$@"; }
+
+@test "the connected components of scipy, on random particles and on a collision" {
+  for seed in 1 2; do
+    components --random two.h5 random.h5 $seed
+    for link in 0.3 1; do
+      fof --link $link -o ids.h5 random.h5 >/dev/null
+      components random.h5 ids.h5 $link
+    done
+  done
+  mksphere -n 300 --radius 100km --layer basalt -o t.h5
+  mksphere -n 100 --radius 60km --layer ice -o i.h5
+  collide t.h5 i.h5 --angle 45deg --speed 3vesc --distance 1.1 -o s.h5
+  solver -o run --end +1500s --every 500s s.h5
+  for k in 0 3; do
+    fof -o ids.h5 run/snap_000$k.h5 >/dev/null
+    components run/snap_000$k.h5 ids.h5 1
+  done
+}
+
 fails() { # fails STATUS TEXT COMMAND...: one line that contains the text
   local want=$1 text=$2
   shift 2

@@ -22,7 +22,7 @@ enum { N = 4000 };
 static Parts *cloud(void)
 {
   Parts *p = part_new(N);
-  assert_int_equal(part_add(p, "id x v m rho u h mat body damage pmax", NULL), 0);
+  assert_int_equal(part_add(p, "id x v m rho u h mat body damage pmax T", NULL), 0);
   assert_int_equal(part_add_material(p, "basalt", "x", NULL), 0);
   assert_int_equal(part_add_material(p, "porous_ice", "y", NULL), 1);
   for (long i = 0; i < N; i++) {
@@ -31,7 +31,7 @@ static Parts *cloud(void)
     p->rho[i] = 1000 + 2000 * rng_uniform(1, k, 4);
     p->u[i] = 1e3 * rng_uniform(1, k, 5), p->h[i] = 1e4, p->mat[i] = i % 3 == 0,
     p->body[i] = (int32_t)(i % 2 * 2);
-    p->damage[i] = i % 4 == 0 ? 1 : 0.5;
+    p->damage[i] = i % 4 == 0 ? 1 : 0.5, p->T[i] = (double)(i % 100);
     p->x[3 * i] = 2e5 * rng_uniform(1, k, 0), p->x[3 * i + 1] = 3e5 * rng_uniform(1, k, 1);
     p->x[3 * i + 2] = 5e5 * rng_uniform(1, k, 2);
     for (int a = 0; a < 3; a++) p->v[3 * i + a] = rng_normal(2, k, (uint32_t)a);
@@ -235,6 +235,31 @@ static void orbits(void **state)
 }
 
 /* As many cells in a row as names in the header, all of one line. */
+/* Masses by phase, where a field outside the schema says them; temperatures. */
+static void heat(void **state)
+{
+  (void)state;
+  Parts *p = cloud();
+  double *phase = part_add_extra(p, "PhaseID", "1", "", NULL), mass[3] = {0}, sum = 0;
+  for (long i = 0; i < N; i++) {
+    phase[i] = (double)(i % 5 == 0 ? 2 : i % 7 == 0);
+    mass[(int)phase[i]] += p->m[i], sum += p->m[i] * (double)(i % 100);
+  }
+  Group g;
+  char *text = NULL;
+  size_t size;
+  FILE *f = open_memstream(&text, &size);
+  assert_int_equal(group_system(&g, p, -1, NULL), 0);
+  for (int k = 0; k < 3; k++) CLOSE(g.phase[k] / mass[k], 1, 1e-12);
+  CLOSE(g.T_mean, sum / g.mass, 1e-10), CLOSE(g.T_max, 99, 0);
+  group_header(f, p, 3), fputc('\n', f), group_row(f, &g, &g, p), fclose(f);
+  int tabs[2] = {0}, line = 0;
+  for (char *s = text; *s; s++) tabs[line] += *s == '\t', line += *s == '\n';
+  assert_int_equal(tabs[0], tabs[1]);
+  assert_non_null(strstr(text, "\tphase_2 [kg]"));
+  free(text), group_free(&g), part_free(p);
+}
+
 static void columns(void **state)
 {
   (void)state;
@@ -251,6 +276,7 @@ static void columns(void **state)
   assert_int_equal(line, 1);
   assert_non_null(strstr(text, "\tporous_ice_from_2 [kg]"));
   assert_null(strstr(text, "nan"));
+  assert_null(strstr(text, "phase_"));
   free(text), group_free(&g), part_free(p);
 }
 
@@ -261,6 +287,6 @@ int main(void)
       cmocka_unit_test(invariances),    cmocka_unit_test(uniform_sphere),
       cmocka_unit_test(one_particle),   cmocka_unit_test(ranks_and_lists),
       cmocka_unit_test(two_bodies),     cmocka_unit_test(orbits),
-      cmocka_unit_test(columns)};
+      cmocka_unit_test(heat),           cmocka_unit_test(columns)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

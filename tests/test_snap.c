@@ -175,6 +175,12 @@ static void some_fields(void **state)
   assert_memory_equal(q->x, p->x, (size_t)N * 3 * sizeof *p->x);
   assert_true(!q->nflaw && !q->flaws && !q->extras && q->n == N && q->time == -12.5);
   assert_names_equal(q, p);
+  part_free(q);
+  const char *name = p->extra[0].name;
+  q = snap_read_some("a.h5", name, &err);
+  assert_int_equal(q->extras, 1);
+  assert_string_equal(q->extra[0].name, name);
+  assert_memory_equal(q->extra[0].data, p->extra[0].data, (size_t)N * (size_t)p->extra[0].size);
   part_free(p);
   part_free(q);
 }
