@@ -105,7 +105,8 @@ static void check(Sim *sim)
 {
   State host = on_host(sim);
   const State *s = &host;
-  PairRun run = {kernel_sigma(sim->par.kernel, 3), sim->par.alpha, sim->par.beta, 3};
+  PairRun run = {kernel_sigma(sim->par.kernel, 3), sim->par.alpha, sim->par.beta, 3,
+                 sim->par.pressure == PARAM_PRODUCT};
   const int samples = (double)s->n > MANY ? SAMPLES / 10 : SAMPLES;
   double worst = 0, heat = 0, mean = 0;
   for (long i = 0; i < 3 * s->n; i++) mean += fabs(s->acc[i]) / (double)s->n;

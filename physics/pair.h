@@ -16,6 +16,7 @@ typedef struct {
   double sigma;       /* kernel_sigma(kern, dimension) */
   double alpha, beta; /* artificial viscosity */
   int dimension;
+  int volumes; /* pressures act on volumes: (p_i + p_j)/(rho_i rho_j) */
 } PairRun;
 
 typedef struct {
@@ -76,9 +77,9 @@ HD PairGradient pair_gradient(PairVector r, PairVector v, real h, real volume, i
 typedef struct {
   real vx, vy, vz;       /* m/s */
   real h, m;             /* m, kg */
-  real rho, inverse_rho; /* kg/m^3, m^3/kg (solid only) */
+  real rho, inverse_rho; /* kg/m^3, m^3/kg */
   real cs, signal;       /* m/s: bulk and longitudinal wave speed */
-  real p;                /* p/rho^2 [Pa m^6/kg^2]; miscible: m^2 p/rho^2 [Pa m^6] */
+  real p; /* volumes: p [Pa]; else p/rho^2 [Pa m^6/kg^2]; miscible: times m^2 [Pa m^6] */
   real dxx, dxy, dxz, dyx, dyy, dyz, dzx, dzy, dzz; /* S C [Pa] */
 } PairBody;
 
@@ -119,6 +120,7 @@ HD real pair_shear_work(const PairBody *i, PairVector r, PairVector v)
  *   T = -(p_i/rho_i^2 + p_j/rho_j^2 + Pi) 1 + (S_i C_i + S_j C_j)/(rho_i rho_j).
  * Corrects 001 eq. 30-35 (signs; heating by the viscosity). The pressure goes with the density by
  * continuity, the stress with the corrected gradient that drives it (docs/theory.md 2.4).
+ * run->volumes: (p_i + p_j)/(rho_i rho_j), which has no force where p is the same and rho jumps.
  * miscible: the number-density form (004 eq. 2.51-2.54 with the mass that the viscosity lacks in
  * print): m_i/m_j p_i/rho_i^2 + m_j/m_i p_j/rho_j^2, and each particle's own stress does its work
  * (the variational form), which keeps the entropy across a jump of density. */
@@ -133,13 +135,13 @@ HD PairForce pair_force(PairVector r, const PairBody *i, const PairBody *j, int 
   real f = pair_slope(kern, line, run, r1, h, &inside), mm = i->m * j->m;
   real nu = viscosity_nu(vr, r2, h), cs = 0.5f * (i->cs + j->cs);
   real pi = mm * viscosity_pi(nu, cs, 0.5f * (i->rho + j->rho), (real)run->alpha, (real)run->beta);
-  real p = miscible ? i->p + j->p : mm * (i->p + j->p);
+  real vv = mm * (i->inverse_rho * j->inverse_rho);
+  real p = (miscible ? 1 : run->volumes ? vv : mm) * (i->p + j->p);
   t.x = -p * r.x, t.y = -p * r.y, t.z = -p * r.z, own = -2 * i->p * vr;
   if (solid) {
     PairVector d = pair_shear(i, j, r);
-    real w = mm * (i->inverse_rho * j->inverse_rho);
-    t.x += w * d.x, t.y += w * d.y, t.z += w * d.z;
-    if (miscible) own += 2 * w * pair_shear_work(i, r, v);
+    t.x += vv * d.x, t.y += vv * d.y, t.z += vv * d.z;
+    if (miscible) own += 2 * vv * pair_shear_work(i, r, v);
   }
   if (!miscible) own = pair_dot(v, t);
   o.fx = f * (t.x - pi * r.x), o.fy = f * (t.y - pi * r.y), o.fz = f * (t.z - pi * r.z);

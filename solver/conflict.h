@@ -14,6 +14,8 @@
     "only leapfrog kicks with gravity in steps of its own") \
   C("escape.from", "gravity.method", p->escape_from == PARAM_DEEPEST && p->gravity == PARAM_NONE, \
     "without self-gravity no particle lies deepest") \
+  C("pressure_form", "density", p->pressure == PARAM_PRODUCT && p->density != PARAM_CONTINUITY, \
+    "the product goes with the density by continuity") \
   C("step.max", "step.min", p->step_max > 0 && p->step_max <= p->step_min, "no step is left between the two") \
   C("heating.profile", "heating.radius", p->deposit_profile && p->deposit_radius == 0, "it needs a radius") \
   C("heating.begin", "heating.end", p->deposit_begin >= p->deposit_end, "no time is left between the two") \

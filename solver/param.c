@@ -32,6 +32,8 @@ static const CfgRow top[] = {
    "mixed: pair terms in single precision between exact differences (on the CPU gravity's only), the rest in double"},
   {"density", CFG_CHOICE, AT(density), "continuity|sum|miscible", "continuity", ANY,
    "continuity equation, kernel sum, or kernel sum of the number density"},
+  {"pressure_form", CFG_CHOICE, AT(pressure), "squares|product", "squares", ANY,
+   "p_i/rho_i^2 + p_j/rho_j^2 (001 eq. 30), or (p_i + p_j)/(rho_i rho_j): layers of other density stay at rest (continuity)"},
   {"density_floor", CFG_REAL, AT(density_floor), "1", "1", 0, 1e6,
    "smallest density, in units of what a lone particle's own kernel makes, m W(0)"},
   {"energy", CFG_CHOICE, AT(energy), "full|isentropic|frozen", "full", ANY,

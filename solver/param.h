@@ -9,6 +9,7 @@
 #include "../lib/part.h"
 
 enum { PARAM_CONTINUITY, PARAM_SUM, PARAM_MISCIBLE };
+enum { PARAM_SQUARES, PARAM_PRODUCT };
 enum { PARAM_FIXED, PARAM_DENSITY, PARAM_NEIGHBOURS };
 enum { PARAM_NONE, PARAM_TREE, PARAM_DIRECT };
 enum { PARAM_FULL, PARAM_ISENTROPIC, PARAM_FROZEN };
@@ -19,7 +20,7 @@ enum { PARAM_CENTRE, PARAM_ORIGIN, PARAM_POINT, PARAM_DEEPEST };
 enum { PARAM_POINTS = 32 };
 
 typedef struct {
-  int integrator, kernel, precision, density, energy, strength, damage;
+  int integrator, kernel, precision, density, pressure, energy, strength, damage;
   double energy_floor, density_floor, outer_pressure;
   int gravity, gravity_every;
   double theta, G;

@@ -14,6 +14,7 @@
 typedef struct {
   double dt;                                        /* s */
   int density, energy, smoothing, strength, damage; /* modes, see param.h */
+  int volumes;                                      /* pressure_form product */
   double neighbours, h_min, h_max, density_floor, energy_floor;
   double self;                            /* sigma w(0): the kernel's centre */
   double cfl, acceleration, step_density; /* factors of the limits */
@@ -127,7 +128,7 @@ HD double passes_deposit(const State *s, const Step *k, long i)
 HD void passes_pack(const State *s, const Step *k, long i, int solid, double dt)
 {
   double left = damage_shear(&s->material[s->mat[i]].damage, s->damage[i]), *t = &s->t[9 * i];
-  double size = k->density == 2 ? s->m[i] / s->rho[i] : 1 / s->rho[i]; /* 2: miscible */
+  double size = k->volumes ? 1 : (k->density == 2 ? s->m[i] : 1) / s->rho[i]; /* 2: miscible */
   double p = s->p[i] < 0 ? (1 - s->damage[i]) * s->p[i] : s->p[i];
   if (k->hold.walls && p < 0 && !solid && hold_wall(s, &k->hold, i)) p = 0;
   s->push[i] = (p - k->outer) * size * size;

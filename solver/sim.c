@@ -33,7 +33,8 @@ Step sim_step(const Sim *sim, double dt)
   Step k;
   memset(&k, 0, sizeof k);
   k.dt = dt;
-  k.density = p->density, k.energy = p->energy, k.smoothing = p->smoothing;
+  k.volumes = p->pressure == PARAM_PRODUCT, k.density = p->density, k.energy = p->energy,
+  k.smoothing = p->smoothing;
   k.strength = sim->solid, k.damage = sim->solid && p->damage;
   k.neighbours = p->neighbours, k.h_min = p->h_min, k.h_max = p->h_max;
   k.density_floor = p->density_floor, k.energy_floor = p->energy_floor;

@@ -28,7 +28,7 @@
   W(double,  ds,     6, "dS/dt, Jaumann rate included [Pa/s]") \
   W(double,  ue,     1, "energy at which the EOS was evaluated [J/kg]") \
   W(double,  cm,     6, "inverse moment matrix of loop A, what corrects the gradient") \
-  W(double,  push,   1, "p/rho^2 [Pa m^6/kg^2], miscible: times m^2; damage included") \
+  W(double,  push,   1, "p/rho^2 [Pa m^6/kg^2], miscible: times m^2, product: p [Pa]; damage included") \
   W(double,  t,      9, "S C, damage included [Pa]") \
   W(double,  cl,     1, "longitudinal wave speed [m/s]")
 /* clang-format on */

@@ -78,6 +78,9 @@ static const Case conflicts[] = {
     {"escape.from=deepest", "gravity.method=none", "gravity.method=tree",
      "escape.from = deepest cannot go with gravity.method = none: without self-gravity no particle "
      "lies deepest"},
+    {"pressure_form=product", "density=sum", "density=continuity",
+     "pressure_form = product cannot go with density = sum: the product goes with the density by "
+     "continuity"},
     {"step.max=1e-3", "step.min=1e-2", "step.min=1e-4",
      "step.max = 0.001 cannot go with step.min = 0.01: no step is left between the two"},
     {"heating.profile=gaussian", "heating.radius=0", "heating.radius=1",

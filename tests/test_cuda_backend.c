@@ -381,6 +381,8 @@ typedef struct {
 static const LoopCase loop_cases[] = {
     {"integrator=leapfrog", "density=continuity", "strength.on=true", "kernel=wendland_c2", 3},
     {"integrator=leapfrog", "density=sum", "strength.on=false", "kernel=cubic_spline", 3},
+    {"integrator=leapfrog", "pressure_form=product", "strength.on=true", "kernel=wendland_c2", 3},
+    {"integrator=leapfrog", "pressure_form=product", "strength.on=false", "kernel=wendland_c2", 2},
     {"integrator=leapfrog", "density=miscible", "strength.on=true", "kernel=wendland_c4", 3},
     {"integrator=leapfrog", "density=miscible", "strength.on=false", "kernel=wendland_c2", 2},
     {"integrator=leapfrog", "density=sum", "strength.on=true", "kernel=quintic_spline", 2},

@@ -101,6 +101,7 @@ static int cpu_open(Sim *sim, const Parts *p, Err *err)
   c->scratch = malloc(c->share * (size_t)omp_get_max_threads());
   c->run.sigma = kernel_sigma(sim->par.kernel, p->dimension);
   c->run.alpha = sim->par.alpha, c->run.beta = sim->par.beta, c->run.dimension = p->dimension;
+  c->run.volumes = sim->par.pressure == PARAM_PRODUCT;
   if (!c->order || !c->record || !c->scratch || alloc_state(sim)) {
     cpu_close(sim);
     return err_set(err, "not enough memory for %ld particles", p->n);

@@ -73,7 +73,7 @@ static __global__ void pack_flow(Loop a)
             (real)(s.m[i] / s.rhoa[o] * a.rho / a.unit.mass), 0);
 }
 
-/* Records for loop B: x with h and m; v, rho | cs, signal, p, dxx | the rest of d. */
+/* Records for loop B: x with h and m; v, rho | cs, signal, p, dxx (fluid 1/rho) | rest of d. */
 template <int solid> static __global__ void pack_body(Loop a)
 {
   long i = self_of();
@@ -89,7 +89,8 @@ template <int solid> static __global__ void pack_body(Loop a)
   place_set(a.r.x, i, (x[0] - a.root->origin[0]) * il, (x[1] - a.root->origin[1]) * il,
             (x[2] - a.root->origin[2]) * il, (real)(s.h[i] * il), (real)(s.m[i] / a.unit.mass));
   quad_set(a.r.q[0], i, v[0] * iv, v[1] * iv, v[2] * iv, s.rho[o] / a.rho);
-  quad_set(a.r.q[1], i, s.cs[o] * iv, s.cl[o] * iv, s.push[o] * a.push, solid ? t[0] * it : 0);
+  quad_set(a.r.q[1], i, s.cs[o] * iv, s.cl[o] * iv, s.push[o] * a.push,
+           solid ? t[0] * it : a.rho / s.rho[o]);
   if (!solid) return;
   const double xy = w[0] * w[1] * it, xz = w[0] * w[2] * it, yz = w[1] * w[2] * it;
   quad_set(a.r.q[2], i, t[1] * xy, t[2] * xz, t[3] * xy, t[4] * it);
@@ -167,8 +168,8 @@ template <int solid> static __device__ PairBody body_get(const Records &r, long 
   *at = place_get(r.x, i, &b.h, &b.m);
   const Quad p = quad_get(r.q[0], i), q = quad_get(r.q[1], i);
   b.vx = p.x, b.vy = p.y, b.vz = p.z, b.rho = p.w;
-  b.cs = q.x, b.signal = q.y, b.p = q.z, b.dxx = q.w;
-  b.inverse_rho = solid ? real_inverse(b.rho) : 0;
+  b.cs = q.x, b.signal = q.y, b.p = q.z, b.dxx = solid ? q.w : 0;
+  b.inverse_rho = solid ? real_inverse(b.rho) : q.w;
   if (solid) {
     const Quad u = quad_get(r.q[2], i), w = quad_get(r.q[3], i);
     b.dxy = u.x, b.dxz = u.y, b.dyx = u.z, b.dyy = u.w;
@@ -346,7 +347,9 @@ static Loop loop_of(const Sim *sim)
   a.s = sim->s, a.r = c->loops->r, a.run = c->run, a.root = c->root, a.unit = c->unit;
   a.start = c->lists.start, a.count = c->lists.count, a.list = c->lists.list;
   a.rho = c->unit.mass / volume;
-  a.push = (sim->miscible ? 1 / (volume * volume) : a.rho * a.rho) /
+  a.push = (sim->miscible   ? 1 / (volume * volume)
+            : a.run.volumes ? 1
+                            : a.rho * a.rho) /
            (a.rho * c->unit.speed * c->unit.speed);
   a.kern = sim->par.kernel, a.miscible = !!sim->miscible;
   return a;

@@ -228,6 +228,7 @@ int cuda_state_open(Sim *sim, const Parts *p, Err *err)
   c->unit = units_of(sim, p);
   c->run.sigma = kernel_sigma(sim->par.kernel, p->dimension);
   c->run.alpha = sim->par.alpha, c->run.beta = sim->par.beta, c->run.dimension = p->dimension;
+  c->run.volumes = sim->par.pressure == PARAM_PRODUCT;
   return alloc(sim, p, err) || fill(sim, p, err) ? -1 : 0;
 }
 
