@@ -56,6 +56,11 @@ ids() { paste -d' ' <(field "$1" ParticleIDs) <(field "$1" ClumpID) <(field "$1"
   rows curve | tail -2 | awk -F'\t' '{ m[NR] = $5 } END { printf "%.9g %.5g\n", (m[1] + m[2]) / 2, ((m[1] - m[2]) ^ 2 / 2) ^ .5 }' >expected
   awk -F'\t' '/^# mean\t/ { m = $5 } /^# deviation/ { d = $5 } END { printf "%.9g %.5g\n", m, d }' curve | cmp - expected
   true_that 'abs(xi) < 1e-9' xi="$(rows curve | head -1 | cut -f 12)" # two whole bodies: nothing accreted
+  # heating: gain of internal energy over 1/2 mu v^2 at contact, as the particles have it
+  for k in 0 6; do paste <(field run/snap_000$k.h5 Masses) <(field run/snap_000$k.h5 InternalEnergy) | awk '{ u += $1 * $2 } END { printf "%.9g\n", u }'; done >U
+  paste -d' ' <(field run/snap_0000.h5 BodyID) <(field run/snap_0000.h5 Masses) |
+    awk -v v="$(number run/snap_0000.h5 /Collision/ContactSpeed)" '{ m[$1] += $2 } END { printf "%.9g\n", m[0] * m[1] / (m[0] + m[1]) / 2 * v * v }' >K
+  true_that 'near(h, (b - a) / k, 1e-5) && h > 0' h="$(rows curve | tail -1 | cut -f 14)" a="$(head -1 U)" b="$(tail -1 U)" k="$(cat K)"
   [ "$(od -A n -t x1 -N 4 masses.png | tr -d ' ')" = 89504e47 ]
 }
 

@@ -10,7 +10,8 @@
 #define COLUMNS(X) \
   X("M", "kg", p->total) X("M_held", "kg", p->held) X("M_1", "kg", p->mass[0]) X("M_2", "kg", p->mass[1]) \
   X("M_3", "kg", p->mass[2]) X("M_4", "kg", p->mass[3]) X("M_5", "kg", p->mass[4]) \
-  X("M_1/M", "1", p->mass[0]/p->total) X("M_2/M", "1", p->mass[1]/p->total) X("xi", "1", p->xi)
+  X("M_1/M", "1", p->mass[0]/p->total) X("M_2/M", "1", p->mass[1]/p->total) X("xi", "1", p->xi) \
+  X("E_th", "J", p->u) X("heating", "1", p->heating)
 /* clang-format on */
 
 /* Mass of a group that comes from body b [kg]. */
@@ -35,6 +36,9 @@ int curve_add(Curve *c, double time, const Group *system, const Group *g, long n
   }
   const double target = from(system, p, 0), impactor = from(system, p, 1);
   if (impactor > 0 && n > 0) q->xi = (g[0].mass - target) / impactor;
+  const double v = part_number(p, "collision", "ContactSpeed");
+  q->u = system->e_th;
+  q->heating = (q->u - c->point[0].u) / (0.5 * target * impactor / (target + impactor) * v * v);
   return 0;
 }
 

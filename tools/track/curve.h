@@ -8,7 +8,8 @@
 enum { CURVE_TOP = 5 };
 
 typedef struct {
-  double time, total, held, mass[CURVE_TOP], xi; /* s, kg; held: in objects; xi: accretion */
+  double time, total, held, mass[CURVE_TOP]; /* s, kg; held: in objects */
+  double xi, u, heating; /* accretion efficiency; internal energy J; its gain over 1/2 mu v^2 */
   long objects;
 } CurvePoint;
 
@@ -18,7 +19,8 @@ typedef struct {
 } Curve;
 
 /* curve_add: a dump: its system, and its objects g [n] by descending mass. Material of body 0 is
- * the target's, of body 1 the impactor's, as much as they had in the first dump. */
+ * the target's, of body 1 the impactor's; mu is their reduced mass, v the contact speed of
+ * /Collision (nan without). */
 int curve_add(Curve *c, double time, const Group *system, const Group *g, long n, const Parts *p,
               Err *err);
 void curve_free(Curve *c);

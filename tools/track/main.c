@@ -47,14 +47,16 @@ static const OptProgram program = {
     .name = "track",
     .does = "follow fragments and bound bodies through the dumps of a run",
     .usage = "[options] snap_0000.h5 ... > objects.tsv",
-    .about = "One row an object and dump. progenitor and descendant are the objects of the dump "
-             "before and after that most of its mass was and is in (0: none), inherited and passed "
-             "the parts of its mass; two that are each other's have the same track. A track that "
-             "ended, as of bodies that touch for a while, goes on with a new object if more than "
-             "half of either is the other's. --tracks: parent is the track it came out of, into "
-             "that which it ended in. --curve: above it means and deviations over the last tenth; "
-             "xi = (M_1 - M_target)/M_impactor. Colour the file of --map by ClumpID (FragmentID), "
-             "that of --origin by InitialDepth: render -c.",
+    .about =
+        "One row an object and dump. progenitor and descendant are the objects of the dump "
+        "before and after that most of its mass was and is in (0: none), inherited and passed "
+        "the parts of its mass; two that are each other's have the same track. A track that "
+        "ended, as of bodies that touch for a while, goes on with a new object if more than "
+        "half of either is the other's. --tracks: parent is the track it came out of, into "
+        "that which it ended in. --curve: above it means and deviations over the last tenth; "
+        "xi = (M_1 - M_target)/M_impactor; heating is the gain of E_th over the kinetic energy "
+        "of both bodies at contact. Colour the file of --map by ClumpID (FragmentID), "
+        "that of --origin by InitialDepth: render -c.",
     .example = "track --plot masses.png --map provenance.h5 run/snap_*.h5 > objects.tsv",
     .opts = opts,
     .min_inputs = 1,
