@@ -44,6 +44,7 @@
   F(double,  delta,  1, "NumberDensity",    "1/m^3",    "solver",   "kernel sum over neighbours (miscible density)") \
   F(double,  signal, 1, "SignalSpeed",      "m/s",      "solver",   "largest signal velocity to a neighbour") \
   F(double,  dcrack, 1, "CrackRate",        "1/s",      "solver",   "rate of the cube root of damage") \
+  F(double,  dalpha, 1, "DistentionRate",   "1/s",      "solver",   "change of the distention in the last step, over its length") \
   F(double,  old_x,   3, "OldVelocity",     "m/s",      "solver",   "at the start of the last step (ab2)") \
   F(double,  old_v,   3, "OldAcceleration", "m/s^2",    "solver",   "at the start of the last step (ab2)") \
   F(double,  old_rho, 1, "OldDensityRate",  "kg/m^3/s", "solver",   "at the start of the last step (ab2)") \

@@ -73,6 +73,14 @@ HD double porosity_curve(const Porosity *q, double p)
   return alpha > q->alpha0 ? q->alpha0 : alpha < 1 ? 1 : alpha;
 }
 
+/* porosity_start: the pressure [Pa] at which pores begin to crush; 0 where the law has none. */
+HD double porosity_start(const Porosity *q)
+{
+  return q->form == POROSITY_P_ALPHA             ? q->p_alpha.p_e
+         : q->form == POROSITY_P_ALPHA_TWO_POWER ? q->p_alpha_two_power.p_e
+                                                 : 0;
+}
+
 /* porosity_speed: elastic sound speed at alpha over the solid's, linear from 1 at alpha = 1 to
  * c_elastic at alpha0 (Herrmann 1969). */
 HD_CALL double porosity_speed(const Porosity *q, const Eos *e, double alpha)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What all backends share: their choice, a look at a particle, the clock of each pass. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -46,7 +47,13 @@ int backend_idle(const Sim *sim, const char *member)
 {
   return (strcmp(member, "T") == 0 && !sim->heated) ||
          (strncmp(member, "old_", 4) == 0 && !sim->memory) ||
-         (strcmp(member, "alpha") == 0 && !sim->porous);
+         ((strcmp(member, "alpha") == 0 || strcmp(member, "dalpha") == 0) && !sim->porous);
+}
+
+void backend_range(Sim *sim)
+{
+  const int fixed = sim->par.smoothing == PARAM_FIXED;
+  sim->s.h_min = fixed ? 0 : sim->par.h_min, sim->s.h_max = fixed ? INFINITY : sim->par.h_max;
 }
 
 void backend_look(Sim *sim, int64_t id, char *text, size_t size)

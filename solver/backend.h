@@ -16,15 +16,18 @@ struct Sums {
   double scale_momentum, scale_angular; /* sum m |v|, sum m |r x v|: what drifts are measured by */
   double
       outside[3]; /* particles outside their table: in density, above it and below it in energy */
+  double held[2]; /* particles whose h is at its smallest, at its largest */
 };
 
-/* The smallest of each time-step criterion, the particle that has it, and the first particle in a
- * bad state. */
+/* The smallest time step that a criterion allows, which and to whom; the first particle in a bad
+ * state. */
 typedef struct {
-  double dt[LIMITS];
-  int64_t id[LIMITS];
-  int64_t bad;    /* id of a particle that is not finite or not positive, or -1 */
-  int bad_reason; /* enum bad */
+  double dt;       /* s */
+  int which;       /* enum of LIMIT_NAMES */
+  int64_t id;      /* the particle, or -1 */
+  double dilation; /* largest |div v| [1/s] */
+  int64_t bad;     /* id of a particle that is not finite or not positive, or -1 */
+  int bad_reason;  /* enum bad */
 } Limits;
 
 typedef struct {
@@ -115,6 +118,10 @@ struct Sim {
   double outer_time, outer_kick;
   PointMasses points;
   Gone gone;         /* what has left */
+  int late;          /* the laws of the late stage are in force (late.h) */
+  double late_speed; /* largest sound speed of matter softened by it [m/s] */
+  double stiffest;   /* largest bulk modulus of a material [Pa] */
+  double dilation;   /* largest |div v| as the last look at the limits had it [1/s] */
   int slots, memory; /* of the integrator: saved states, rates of the step before */
   double dt_before;  /* length of the last step [s]; 0: there is none */
   BackendTimer timer[TIMERS];
@@ -127,6 +134,9 @@ const struct backend *backend_find(const char *device, int *card, Err *err);
 /* backend_idle: whether no pass of this run reads or writes the field of the state by that name: no
  * backend holds an array for it. */
 int backend_idle(const Sim *sim, const char *member);
+
+/* backend_range: the range of h into the state. */
+void backend_range(Sim *sim);
 
 /* backend_look: the state of one particle as text, for error messages. */
 void backend_look(Sim *sim, int64_t id, char *text, size_t size);

@@ -39,7 +39,10 @@
   U("gravity.theta", p->gravity != PARAM_TREE, "gravity.method") \
   U("gravity.G", p->gravity == PARAM_NONE && !s->points.n, "gravity.method") \
   U("gravity.every", p->gravity == PARAM_NONE, "gravity.method") \
-  U("smoothing.neighbours", p->smoothing != PARAM_NEIGHBOURS, "smoothing.mode") \
+  U("smoothing.neighbours", p->smoothing != PARAM_NEIGHBOURS && p->smoothing != PARAM_OVERCORRECTED, "smoothing.mode") \
+  U("smoothing.fewest", p->smoothing != PARAM_OVERCORRECTED, "smoothing.mode") \
+  U("smoothing.most", p->smoothing != PARAM_OVERCORRECTED, "smoothing.mode") \
+  U("smoothing.width", p->smoothing != PARAM_OVERCORRECTED, "smoothing.mode") \
   U("smoothing.min", p->smoothing == PARAM_FIXED, "smoothing.mode") \
   U("smoothing.max", p->smoothing == PARAM_FIXED, "smoothing.mode") \
   U("sink.rule", !points_sinks(s), "no point mass has a radius") \
@@ -49,6 +52,26 @@
   U("escape.every", !(p->escape_distance > 0), "escape.distance") \
   U("step.points", s->points.n < 2, "there are no two point masses") \
   U("step.error", integrator_of(p->integrator) != &integrator_rk2_adaptive, "integrator") \
+  U("step.growth", integrator_of(p->integrator) != &integrator_rk2_adaptive, "integrator") \
+  U("step.energy", p->energy == PARAM_FROZEN, "energy") \
+  U("step.energy_least", !(p->step_energy > 0), "step.energy") \
+  U("step.smoothing", p->smoothing == PARAM_FIXED, "smoothing.mode") \
+  U("step.stress", !s->solid, "no material has a deviatoric stress in this run") \
+  U("step.stress_least", !(p->step_stress > 0), "step.stress") \
+  U("step.damage", !(s->solid && p->damage), "there is no damage in this run") \
+  U("step.damage_least", !(p->step_damage > 0), "step.damage") \
+  U("step.distention", !s->porous, "no material has pores") \
+  U("step.pressure", !s->porous, "no material has pores") \
+  U("error.position", integrator_of(p->integrator) != &integrator_rk2_adaptive, "integrator") \
+  U("error.velocity", integrator_of(p->integrator) != &integrator_rk2_adaptive, "integrator") \
+  U("error.density", integrator_of(p->integrator) != &integrator_rk2_adaptive, "integrator") \
+  U("error.energy", integrator_of(p->integrator) != &integrator_rk2_adaptive, "integrator") \
+  U("error.stress", integrator_of(p->integrator) != &integrator_rk2_adaptive, "integrator") \
+  U("error.damage", integrator_of(p->integrator) != &integrator_rk2_adaptive, "integrator") \
+  U("late.bulk_modulus", p->late_bulk >= s->stiffest, "no material is stiffer") \
+  U("late.time", !(p->late_bulk > 0), "late.bulk_modulus") \
+  U("late.poisson", !(p->late_bulk > 0), "late.bulk_modulus") \
+  U("late.rho_min", !(p->late_bulk > 0), "late.bulk_modulus") \
   U("damping.radial", !(p->damping > 0), "damping.rate") \
   U("analysis.method", !(p->analysis_every > 0), "analysis.every") \
   U("analysis.criterion", !(p->analysis_every > 0), "analysis.every") \

@@ -19,7 +19,8 @@ static const char HEADER[] = "# "
                              "s]\tsum_mv[kg*m/s]\tsum_mrv[kg*m^2/s]\tmass[kg]\tx[m]\ty[m]\tz[m]"
                              "\tparticles\tm_gone[kg]\tE_gone[J]\tp_gone_x[kg*m/s]"
                              "\tp_gone_y[kg*m/s]\tp_gone_z[kg*m/s]\tL_gone_x[kg*m^2/s]"
-                             "\tL_gone_y[kg*m^2/s]\tL_gone_z[kg*m^2/s]\n";
+                             "\tL_gone_y[kg*m^2/s]\tL_gone_z[kg*m^2/s]"
+                             "\th_at_min\th_at_max\n";
 
 static void name_of(const char *dir, const char *name, char *path, size_t size)
 {
@@ -122,6 +123,15 @@ static void note_outside(Output *o, const Sim *sim, const double outside[3])
       sim->step, sim->time, outside[0], outside[1], outside[2]);
 }
 
+/* A line in the log when the first particles have the smallest or largest h that is allowed. */
+static void note_held(Output *o, const Sim *sim, int end, double held)
+{
+  if (held > 0 && o->most_held[end] == 0)
+    output_log(o, "step %ld, t = %.9g s: %.0f particles have the %s h allowed, smoothing.%s",
+               sim->step, sim->time, held, end ? "largest" : "smallest", end ? "max" : "min");
+  o->most_held[end] = fmax(o->most_held[end], held);
+}
+
 int output_conserved(Output *o, Sim *sim, const SimStep *done, Err *err)
 {
   Sums s;
@@ -138,7 +148,8 @@ int output_conserved(Output *o, Sim *sim, const SimStep *done, Err *err)
   fprintf(o->conserved, "\t%ld\t%.15g\t%.12g", sim->s.n, sim->gone.mass, sim->gone.energy);
   for (int d = 0; d < 3; d++) fprintf(o->conserved, "\t%.12g", sim->gone.momentum[d]);
   for (int d = 0; d < 3; d++) fprintf(o->conserved, "\t%.12g", sim->gone.angular[d]);
-  fputc('\n', o->conserved);
+  fprintf(o->conserved, "\t%.0f\t%.0f\n", s.held[0], s.held[1]);
+  for (int d = 0; d < 2; d++) note_held(o, sim, d, s.held[d]);
   if (fflush(o->conserved))
     return err_set(err, "cannot write '%s/conserved.tsv': %s", o->dir, strerror(errno));
   return 0;

@@ -15,6 +15,7 @@ typedef struct {
   long next;                /* index of the next snapshot */
   FILE *conserved, *log;
   double outside[3], most_outside; /* particles outside their tables: at the last look; ever */
+  double most_held[2];             /* particles with the smallest, the largest h, ever */
   Writer writer;
   Archive archive; /* of what has left */
   /* What the writer is at: a snapshot or a checkpoint, of this state. */
@@ -44,7 +45,8 @@ int output_table(const Output *o, const char *name, const char *header, long ste
 double output_due(const Output *o);
 
 /* output_conserved: a line of sums; done is the step just made, or NULL at the start. Particles
- * outside their tables are counted, and said in the log when there are others than before. */
+ * outside their tables are counted, and said in the log when there are others than before; so are
+ * the first with the smallest or largest h. */
 int output_conserved(Output *o, Sim *sim, const SimStep *done, Err *err);
 
 /* output_snapshot: snap_NNNN.h5, and run.h5part anew. output_checkpoint: checkpoint.h5; when it is

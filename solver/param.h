@@ -10,7 +10,7 @@
 
 enum { PARAM_CONTINUITY, PARAM_SUM, PARAM_MISCIBLE };
 enum { PARAM_SQUARES, PARAM_PRODUCT };
-enum { PARAM_FIXED, PARAM_DENSITY, PARAM_NEIGHBOURS };
+enum { PARAM_FIXED, PARAM_DENSITY, PARAM_NEIGHBOURS, PARAM_OVERCORRECTED };
 enum { PARAM_NONE, PARAM_TREE, PARAM_DIRECT };
 enum { PARAM_FULL, PARAM_ISENTROPIC, PARAM_FROZEN };
 enum { PARAM_MIXED, PARAM_DOUBLE };
@@ -30,8 +30,13 @@ typedef struct {
   double deposit, deposit_centre[3], deposit_radius, deposit_begin, deposit_end;
   int deposit_profile, deposit_axis;
   int smoothing;
-  double neighbours, h_min, h_max;
-  double cfl, step_acceleration, step_density, step_error, step_min, step_max, step_points;
+  double neighbours, h_min, h_max, fewest, most, width;
+  double cfl, step_acceleration, step_density, step_error, step_min, step_max, step_first,
+      step_growth, step_points;
+  double step_energy, step_smoothing, step_stress, step_damage, step_distention, step_pressure,
+      energy_least, stress_least, damage_least;
+  double late_time, late_bulk, late_poisson, late_rho_min;
+  double error_position, error_velocity, error_density, error_energy, error_stress, error_damage;
   double damping;
   int damping_radial;
   int faces[3];

@@ -10,31 +10,13 @@
 #include "fold.h"
 #include "hold.h"
 
-/* Numbers of a step: the same for all particles. */
-typedef struct {
-  double dt;                                        /* s */
-  int density, energy, smoothing, strength, damage; /* modes, see param.h */
-  int volumes;                                      /* pressure_form product */
-  double neighbours, h_min, h_max, density_floor, energy_floor;
-  double self;                            /* sigma w(0): the kernel's centre */
-  double cfl, acceleration, step_density; /* factors of the limits */
-  double outer;                           /* pressure outside [Pa] */
-  double damping;                         /* 1/s; 0: none */
-  int damping_radial;
-  double centre[BODIES][3], velocity[BODIES][3],
-      omega[BODIES][3]; /* frames that are damped towards */
-  int slot, rates;      /* saved arrays to work on; whether rates are saved instead of the state */
-  double weight[3];     /* of the saved rates 1..3 in a combination */
-  double pull;          /* weight of gravity in this kick, over that of the other forces, minus 1 */
-  int viscous;          /* physical viscosity */
-  Fluid fluid;
-  Deposit deposit;
-  Hold hold;
-} Step;
-
-/* Why a step is as short as it is; what conserved.tsv and the log name. */
+/* Why a step is as short as it is; what conserved.tsv and the log name. limits.h has what each is.
+ */
 /* clang-format off */
-#define LIMIT_NAMES(L) L(CFL, "cfl") L(ACCELERATION, "acceleration") L(DENSITY, "density")
+#define LIMIT_NAMES(L) \
+  L(CFL, "cfl") L(ACCELERATION, "acceleration") L(DENSITY, "density") \
+  L(ENERGY, "energy") L(SMOOTHING, "smoothing") L(STRESS, "stress") L(DAMAGE, "damage") \
+  L(DISTENTION, "distention") L(PRESSURE, "pressure")
 /* clang-format on */
 enum {
 #define LIMIT_ENUM(CAPITAL, NAME) LIMIT_##CAPITAL,
@@ -42,6 +24,35 @@ enum {
 #undef LIMIT_ENUM
       LIMITS
 };
+
+/* Numbers of a step: the same for all particles. */
+typedef struct {
+  double dt;                                        /* s */
+  int density, energy, smoothing, strength, damage; /* modes, see param.h */
+  int volumes;                                      /* pressure_form product */
+  double neighbours, h_min, h_max, density_floor, energy_floor;
+  double self;                                     /* sigma w(0): the kernel's centre */
+  double cfl, acceleration, step_density;          /* factors of the limits (limits.h) */
+  double limit[LIMITS];                            /* of those that are off unless asked for: 0 */
+  double energy_least, stress_least, damage_least; /* what counts at least in them */
+  int limited;                                     /* any of them is on */
+  double few, many, width, dilation; /* overcorrected h: neighbours, largest |div v| [1/s] */
+  double outer;                      /* pressure outside [Pa] */
+  double damping;                    /* 1/s; 0: none */
+  int damping_radial;
+  double centre[BODIES][3], velocity[BODIES][3],
+      omega[BODIES][3]; /* frames that are damped towards */
+  struct {
+    double x, v, rho, u, s, crack;
+  } error;          /* weights of the errors of rk2-adaptive, over the tolerance */
+  int slot, rates;  /* saved arrays to work on; whether rates are saved instead of the state */
+  double weight[3]; /* of the saved rates 1..3 in a combination */
+  double pull;      /* weight of gravity in this kick, over that of the other forces, minus 1 */
+  int viscous;      /* physical viscosity */
+  Fluid fluid;
+  Deposit deposit;
+  Hold hold;
+} Step;
 
 enum {
   BAD_NONE,
@@ -180,10 +191,22 @@ HD void pass_kick(const State *s, const Step *k, long i)
   for (int d = 0; d < 3; d++) s->v[3 * i + d] += passes_kick(s, k, 3 * i + d) * k->dt;
 }
 
-/* passes_follow: h after dt as it follows the density (004 eq. 2.36), within its limits. */
+/* passes_swell: dln(h)/dt as h follows the density (004 eq. 2.36); with too few or too many
+ * neighbours it grows or shrinks as fast as anything does (004 eq. 2.37, 2.38, with the largest
+ * |div v| of this step). */
+HD double passes_swell(const State *s, const Step *k, long i)
+{
+  double rate = s->divv[i] / s->dimension, low, high;
+  if (k->smoothing != 3) return rate;
+  low = 0.5 * (1 - tanh((s->nngb[i] - k->few) / k->width));
+  high = 0.5 * (1 + tanh((s->nngb[i] - k->many) / k->width));
+  return (low - high) * k->dilation + (1 - low - high) * rate;
+}
+
+/* passes_follow: h after dt at that rate, within its limits. */
 HD double passes_follow(const State *s, const Step *k, long i, double h, double dt)
 {
-  h *= exp(s->divv[i] * dt / s->dimension);
+  h *= exp(passes_swell(s, k, i) * dt);
   return h < k->h_min ? k->h_min : h > k->h_max ? k->h_max : h;
 }
 
@@ -256,6 +279,7 @@ HD void pass_advance(const State *s, const Step *k, long i)
     matter_eos(s, i, u + k->dt * (work + heat), k->strength);
   }
   if (s->rare && s->alpha) matter_compact(s, i, alpha, mu > 0, k->damage);
+  if (s->rare && s->alpha) s->dalpha[i] = k->dt > 0 ? (s->alpha[i] - alpha) / k->dt : 0;
   if (mu > 0) matter_yield(s, i, 1, k->dt * heat + passes_deposit(s, k, i), k->dt);
   if (k->damage) passes_damage(s, i, k->dt);
   passes_pack(s, k, i, mu > 0, 0.5 * k->dt);
@@ -352,7 +376,7 @@ HD void pass_save(const State *s, const Step *k, long i)
   for (int d = 0; d < 6; d++) to->s[6 * i + d] = k->rates ? s->ds[6 * i + d] : s->s[6 * i + d];
   to->rho[i] = k->rates ? -s->rho[i] * div : s->rho[i];
   to->u[i] = k->rates ? passes_heating(s, k, i) : s->u[i];
-  to->h[i] = k->rates ? (k->smoothing ? s->h[i] * div / s->dimension : 0) : s->h[i];
+  to->h[i] = k->rates ? (k->smoothing ? s->h[i] * passes_swell(s, k, i) : 0) : s->h[i];
   to->crack[i] = k->rates ? s->dcrack[i] : cbrt(s->damage[i]);
   if (s->alpha) to->alpha[i] = s->alpha[i];
 }
@@ -429,6 +453,7 @@ HD void pass_settle(const State *s, const Step *k, long i)
   s->h[i] = h < k->h_min ? k->h_min : h > k->h_max ? k->h_max : h;
   matter_eos(s, i, s->u[i], k->strength);
   if (s->rare && s->alpha) matter_compact(s, i, alpha, solid, k->damage);
+  if (s->rare && s->alpha) s->dalpha[i] = k->dt > 0 ? (s->alpha[i] - alpha) / k->dt : 0;
   if (solid)
     matter_yield(s, i, 1, (k->energy == 0 ? k->dt * s->dqdt[i] : 0) + passes_deposit(s, k, i),
                  k->dt);
@@ -454,17 +479,6 @@ HD void pass_correct(const State *s, long i, const double raw[9], Sym m)
     g[a + 1] = raw[a] * c.xy + raw[a + 1] * c.yy + raw[a + 2] * c.yz;
     g[a + 2] = raw[a] * c.xz + raw[a + 1] * c.yz + raw[a + 2] * c.zz;
   }
-}
-
-/* pass_limits: the step [s] that each criterion allows to particle i, dt[LIMITS] (001 eq. 54-57
- * with the errata; 004 eq. 2.45). */
-HD void pass_limits(const State *s, const Step *k, long i, double *dt)
-{
-  const double *a = &s->a[3 * i];
-  double pull = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
-  dt[LIMIT_CFL] = k->cfl * s->h[i] / s->signal[i];
-  dt[LIMIT_ACCELERATION] = pull > 0 ? k->acceleration * sqrt(s->h[i] / pull) : INFINITY;
-  dt[LIMIT_DENSITY] = s->divv[i] != 0 ? k->step_density / fabs(s->divv[i]) : INFINITY;
 }
 
 /* pass_bad: whether the state of i makes no sense any more, and why. */

@@ -6,8 +6,9 @@
 #define REDUCE_H
 
 #include "backend.h"
+#include "limits.h"
 
-enum { REDUCE_SUMS = 18 };
+enum { REDUCE_SUMS = 20 };
 
 /* Sums over all particles, as Sums has them. */
 typedef struct {
@@ -25,6 +26,7 @@ HD void reduce_add_sums(ReduceSums *o, const State *s, long i)
   for (int d = 0; d < 3; d++)
     o->v[4 + d] += m * v[d], o->v[7 + d] += m * l[d], o->v[10 + d] += m * x[d];
   o->v[13] += m * sqrt(v2), o->v[14] += m * sqrt(l[0] * l[0] + l[1] * l[1] + l[2] * l[2]);
+  o->v[18] += s->h[i] <= s->h_min, o->v[19] += s->h[i] >= s->h_max;
   if (s->rare && s->material[s->mat[i]].eos.form == EOS_TABLE) {
     int outside = eos_table_outside(&s->material[s->mat[i]].eos.table,
                                     s->rho[i] * (s->alpha ? s->alpha[i] : 1), s->u[i]);
@@ -46,33 +48,43 @@ HD void reduce_sums(const ReduceSums *t, Sums *out)
     out->centre[d] = v[0] > 0 ? v[10 + d] / v[0] : 0;
   }
   out->scale_momentum = v[13], out->scale_angular = v[14];
+  out->held[0] = v[18], out->held[1] = v[19];
 }
 
 /* The limits of no particle. */
 HD Limits reduce_no_limits(void)
 {
-  Limits o;
-  for (int k = 0; k < LIMITS; k++) o.dt[k] = INFINITY, o.id[k] = INT64_MAX;
-  o.bad = -1, o.bad_reason = BAD_NONE;
+  const Limits o = {INFINITY, LIMITS, -1, 0, -1, BAD_NONE};
   return o;
 }
 
-/* reduce_merge_limits: ties go to the smaller id. */
+/* reduce_before: whether a step of b counts rather than that of a: the smaller, of equal ones that
+ * of the first criterion, then that of the smaller id. */
+HD int reduce_before(const Limits *b, const Limits *a)
+{
+  if (b->dt != a->dt) return b->dt < a->dt;
+  return b->which != a->which ? b->which < a->which : b->id < a->id;
+}
+
 HD void reduce_merge_limits(Limits *a, const Limits *b)
 {
-  for (int k = 0; k < LIMITS; k++)
-    if (b->dt[k] < a->dt[k] || (b->dt[k] == a->dt[k] && b->id[k] < a->id[k]))
-      a->dt[k] = b->dt[k], a->id[k] = b->id[k];
+  if (reduce_before(b, a)) a->dt = b->dt, a->which = b->which, a->id = b->id;
+  if (b->dilation > a->dilation) a->dilation = b->dilation;
   if (b->bad >= 0 && (a->bad < 0 || b->bad < a->bad))
     a->bad = b->bad, a->bad_reason = b->bad_reason;
 }
 
-HD void reduce_add_limits(Limits *o, const State *s, const Step *k, long i)
+/* reduce_add_limits: asked: with the limits that may be off, k->limited; a literal where these
+ * would cost registers. */
+HD void reduce_add_limits(Limits *o, const State *s, const Step *k, long i, int asked)
 {
-  Limits one;
+  Limits one = reduce_no_limits();
+  double dt[LIMITS];
   one.bad_reason = pass_bad(s, i), one.bad = one.bad_reason ? s->id[i] : -1;
-  pass_limits(s, k, i, one.dt);
-  for (int c = 0; c < LIMITS; c++) one.id[c] = s->id[i];
+  one.dilation = fabs(s->divv[i]);
+  limits_of(s, k, i, asked, dt);
+  for (int c = 0; c < LIMITS; c++)
+    if (dt[c] < one.dt) one.dt = dt[c], one.which = c, one.id = s->id[i];
   reduce_merge_limits(o, &one);
 }
 
@@ -141,18 +153,22 @@ HD void reduce_merge_spin(ReduceSpin *a, const ReduceSpin *b)
 /* reduce_spin: omega = I^-1 L; 0 for particles on a line. */
 HD void reduce_spin(const ReduceSpin *t, double omega[3]) { tensor_solve(t->inertia, t->l, omega); }
 
-/* The error of one number of rk2-adaptive over size, the largest so far kept in worst. */
+/* The error of one number of rk2-adaptive over size, times its weight, the largest so far kept in
+ * worst. */
 #define REDUCE_ERROR(MEMBER, J, SIZE)                                                              \
-  e = fabs(dt * (b->MEMBER[J] - (a->MEMBER[J] + 4 * b->MEMBER[J] + c->MEMBER[J]) / 6)) / (SIZE);   \
+  e = k->error.MEMBER *                                                                            \
+      fabs(dt * (b->MEMBER[J] - (a->MEMBER[J] + 4 * b->MEMBER[J] + c->MEMBER[J]) / 6)) / (SIZE);   \
   if (!(e <= worst)) worst = e <= 1e300 ? e : 1e300;
 
-/* reduce_error: of the midpoint rule against the third-order step, over what a tolerance of 1 would
- * allow: lengths by h, speeds by the signal speed (or, in cold matter, h/1000 a step), the rest by
- * its own size (001 eq. 63). What is not finite is 1e300. */
-HD double reduce_error(const State *s, double dt, long i)
+/* reduce_error: of the midpoint rule against the third-order step, over what is allowed: lengths by
+ * h, speeds by the signal speed (or, in cold matter, h/1000 a step), the rest by its own size (001
+ * eq. 63), so that nothing depends on the origin or on the frame. In the same way the change of the
+ * distention, where it is limited. What is not finite is 1e300. */
+HD double reduce_error(const State *s, const Step *k, long i)
 {
   const Saved *a = &s->saved[1], *b = &s->saved[2], *c = &s->saved[3];
-  double cold = 1e-3 * s->h[i] / dt, scale = s->cl[i] > cold ? s->cl[i] : cold, worst = 0, e;
+  const double dt = k->dt, cold = 1e-3 * s->h[i] / dt, scale = s->cl[i] > cold ? s->cl[i] : cold;
+  double worst = 0, e;
   for (int d = 0; d < 3; d++) {
     REDUCE_ERROR(x, 3 * i + d, s->h[i])
     REDUCE_ERROR(v, 3 * i + d, scale)
@@ -161,6 +177,10 @@ HD double reduce_error(const State *s, double dt, long i)
   REDUCE_ERROR(rho, i, s->rho[i])
   REDUCE_ERROR(u, i, fabs(s->u[i]) + scale * scale)
   REDUCE_ERROR(crack, i, 1)
+  if (s->alpha && k->limit[LIMIT_DISTENTION] > 0) {
+    e = fabs(c->alpha[i] - s->saved[0].alpha[i]) / k->limit[LIMIT_DISTENTION];
+    worst = e > worst ? e : worst;
+  }
   return worst;
 }
 #undef REDUCE_ERROR

@@ -168,16 +168,35 @@ static int look_around(Run *r, const SimStep *done, Err *err)
   return 1;
 }
 
+/* The late stage has begun: what it does to the sound, and whether matter still moves faster. */
+static int note_late(Run *r, Err *err)
+{
+  const Sim *sim = &r->sim;
+  Sums s;
+  double v2 = 0;
+  if (sim_sums(&r->sim, &s, err)) return -1;
+  for (int d = 0; d < 3; d++) v2 += s.momentum[d] * s.momentum[d];
+  v2 = fmax(0, 2 * s.kinetic - v2 / s.mass) / s.mass;
+  output_log(
+      &r->out,
+      "late stage from step %ld, t = %.9g s: sound speed %.4g m/s or less, rms velocity %.4g "
+      "m/s%s",
+      sim->step, sim->time, sim->late_speed, sqrt(v2),
+      sqrt(v2) > sim->late_speed ? ": faster than sound, so too early or too soft" : "");
+  return 0;
+}
+
 static int loop(Run *r, Err *err)
 {
   SimStep done;
   int go = r->sim.time < r->o->end && !analysis_converged(&r->analysis, &r->sim.par);
   progress_start(&r->bar, "solver", 60);
   while (go == 1) {
+    const int early = !r->sim.late;
     if (sim_advance(&r->sim, fmin(output_due(&r->out), r->o->end), &done, err))
       go = -1;
     else
-      go = look_around(r, &done, err);
+      go = early && r->sim.late && note_late(r, err) ? -1 : look_around(r, &done, err);
   }
   progress_end(&r->bar);
   return go;
@@ -216,6 +235,11 @@ int run_system(const RunOptions *o, const Param *par, Parts *parts, Err *err)
   if (rc >= 0 && r.out.most_outside > 0)
     err_warn("up to %.0f particles were outside the table of their equation of state: see run.log",
              r.out.most_outside);
+  if (rc >= 0 && r.out.most_held[0] + r.out.most_held[1] > 0)
+    err_warn(
+        "up to %.0f particles had the smallest h allowed, %.0f the largest (smoothing.min, max): "
+        "see conserved.tsv",
+        r.out.most_held[0], r.out.most_held[1]);
   if (rc >= 0 && o->profile) profile_print(&r.sim, r.sim.step - r.first_step, stderr);
   analysis_close(&r.analysis);
   output_close(&r.out);

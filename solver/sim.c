@@ -5,6 +5,7 @@
 #include <string.h>
 #include "../lib/material.h"
 #include "conflict.h"
+#include "late.h"
 #include "sim.h"
 
 static const char *const bad_names[] = {"nothing",
@@ -35,13 +36,24 @@ Step sim_step(const Sim *sim, double dt)
   k.dt = dt;
   k.volumes = p->pressure == PARAM_PRODUCT, k.density = p->density, k.energy = p->energy,
   k.smoothing = p->smoothing;
-  k.strength = sim->solid, k.damage = sim->solid && p->damage;
+  k.strength = sim->solid, k.damage = sim->solid && p->damage && !sim->late;
   k.neighbours = p->neighbours, k.h_min = p->h_min, k.h_max = p->h_max;
   k.density_floor = p->density_floor, k.energy_floor = p->energy_floor;
   k.outer = p->outer_pressure;
   k.self = kernel_sigma(p->kernel, sim->s.dimension) * kernel_w(p->kernel, sim->s.dimension, 0);
   k.cfl = p->cfl, k.acceleration = p->step_acceleration;
   k.step_density = p->step_density;
+  k.limit[LIMIT_ENERGY] = p->step_energy, k.limit[LIMIT_SMOOTHING] = p->step_smoothing;
+  k.limit[LIMIT_STRESS] = p->step_stress, k.limit[LIMIT_DAMAGE] = p->step_damage;
+  k.limit[LIMIT_DISTENTION] = p->step_distention, k.limit[LIMIT_PRESSURE] = p->step_pressure;
+  for (int c = 0; c < LIMITS; c++) k.limited |= k.limit[c] > 0;
+  k.energy_least = p->energy_least, k.stress_least = p->stress_least;
+  k.damage_least = p->damage_least;
+  k.few = p->fewest * p->neighbours, k.many = p->most * p->neighbours, k.width = p->width;
+  k.dilation = sim->dilation;
+  k.error.x = p->error_position / p->step_error, k.error.v = p->error_velocity / p->step_error;
+  k.error.rho = p->error_density / p->step_error, k.error.u = p->error_energy / p->step_error;
+  k.error.s = p->error_stress / p->step_error, k.error.crack = p->error_damage / p->step_error;
   k.damping = p->damping, k.damping_radial = p->damping_radial;
   k.viscous = sim->viscous;
   k.fluid = (Fluid){p->shear, p->bulk, p->shakura, p->aspect, p->compression};
@@ -97,6 +109,7 @@ static int open_common(Sim *sim, const Param *par, const Parts *p, const char *d
       sim->solid = 1;
     else
       sim->fluid = 1;
+    sim->stiffest = fmax(sim->stiffest, eos_bulk(&m->eos));
     sim->rare |= material_rare(m);
     sim->porous |= material_distends(m);
     sim->heated |= par->strength && material_heats(m);
@@ -206,7 +219,7 @@ int sim_restart(Sim *sim, const Param *par, const Parts *p, const char *device, 
   if (open_common(sim, par, p, device, err)) return sim_close(sim), -1;
   if (part_need(p, "a dudt dqdt divv p cs s nact signal dcrack nngb", "checkpoint", err))
     return sim_close(sim), -1;
-  if ((sim->porous && part_need(p, "alpha", "checkpoint", err)) ||
+  if ((sim->porous && part_need(p, "alpha dalpha", "checkpoint", err)) ||
       (sim->heated && part_need(p, "T", "checkpoint", err)))
     return sim_close(sim), -1;
   sim->par.h_min = part_number(p, "run", "SmoothingMin"),
@@ -224,7 +237,8 @@ int sim_restart(Sim *sim, const Param *par, const Parts *p, const char *device, 
   }
   if ((par->gravity_every > 1 && restart_outer(sim, p, err)) || leave_load(sim, p, err))
     return sim_close(sim), -1;
-  if (hand_over(sim, p, err)) return sim_close(sim), -1;
+  if (hand_over(sim, p, err) || (part_number(p, "run", "Late") > 0 && late_soften(sim, err)))
+    return sim_close(sim), -1;
   return 0;
 }
 
@@ -242,8 +256,8 @@ const char *sim_limit_name(int limit)
       LIMIT_NAMES(SIM_LIMIT)
 #undef SIM_LIMIT
           "output",
-      "error", "max", "points"};
-  return limit >= 0 && limit < LIMITS + 4 ? names[limit] : "?";
+      "error", "max", "points", "first"};
+  return limit >= 0 && limit < LIMITS + 5 ? names[limit] : "?";
 }
 
 /* What a file of the solver holds. */
@@ -256,6 +270,10 @@ static int limits_of(Sim *sim, Limits *l, Err *err)
   Step k = sim_step(sim, 0);
   char look[512];
   if (sim->b->limits(sim, &k, l, err)) return -1;
+  if (k.smoothing == PARAM_OVERCORRECTED && k.limit[LIMIT_SMOOTHING] > 0) { /* of this dilation */
+    k.dilation = l->dilation;
+    if (sim->b->limits(sim, &k, l, err)) return -1;
+  }
   if (l->bad < 0) return 0;
   backend_look(sim, l->bad, look, sizeof look);
   return err_set(err, "the state broke down at t = %.9g s, step %ld: %s: %s", sim->time, sim->step,
@@ -267,9 +285,8 @@ static int next_limits(Sim *sim, SimStep *next, Err *err)
 {
   Limits l;
   if (limits_of(sim, &l, err)) return -1;
-  next->dt = INFINITY, next->limit = LIMITS + 2, next->id = -1;
-  for (int c = 0; c < LIMITS; c++)
-    if (l.dt[c] < next->dt) next->dt = l.dt[c], next->limit = c, next->id = l.id[c];
+  next->dt = l.dt, next->limit = l.dt < INFINITY ? l.which : LIMITS + 2, next->id = l.id;
+  sim->dilation = l.dilation;
   if (points_limit(sim) < next->dt)
     next->dt = points_limit(sim), next->limit = LIMITS + 3, next->id = -1;
   return 0;
@@ -291,13 +308,17 @@ static void plan_gravity(Sim *sim, double dt, double left)
 int sim_advance(Sim *sim, double until, SimStep *done, Err *err)
 {
   const struct integrator *in = integrator_of(sim->par.integrator);
-  double left = until - sim->time, dt;
+  double left, dt;
   char look[512] = "";
+  until = late_until(sim, until), left = until - sim->time;
+  if (late_due(sim) && (late_enter(sim, err) || in->start(sim, err))) return -1;
   if (next_limits(sim, done, err)) return -1;
   if (sim->dt > 0 && sim->dt < done->dt)
     done->dt = sim->dt, done->limit = LIMITS + 1, done->id = -1;
   if (sim->par.step_max > 0 && sim->par.step_max < done->dt)
     done->dt = sim->par.step_max, done->limit = LIMITS + 2, done->id = -1;
+  if (sim->par.step_first > 0 && sim->step == 0 && sim->par.step_first < done->dt)
+    done->dt = sim->par.step_first, done->limit = LIMITS + 4, done->id = -1;
   if (!(done->dt > sim->par.step_min)) {
     if (done->id >= 0) backend_look(sim, done->id, look, sizeof look);
     return err_set(err, "the time step collapsed to %.3g s (%s) at t = %.9g s: %s", done->dt,
@@ -331,12 +352,13 @@ int sim_send(Sim *sim, Parts *p, Err *err)
   Limits l;
   if (limits_of(sim, &l, err) || part_add(p, stored, err) ||
       (sim->par.gravity_every > 1 && part_add(p, "pull", err)) ||
-      (sim->porous && part_add(p, "alpha", err)) || (sim->heated && part_add(p, "T", err)) ||
+      (sim->porous && part_add(p, "alpha dalpha", err)) || (sim->heated && part_add(p, "T", err)) ||
       (sim->memory &&
        (part_add(p, memory, err) || part_set_number(p, "run", "LastStep", sim->dt_before, err))) ||
       points_store(sim, p, err) || leave_store(sim, p, err) || sim->b->store(sim, p, err))
     return -1;
   p->time = sim->time;
+  if (sim->late && part_set_number(p, "run", "Late", 1, err)) return -1;
   if (sim->par.gravity_every > 1 &&
       (part_set_number(p, "run", "OuterStep", sim->outer, err) ||
        part_set_number(p, "run", "OuterSteps", sim->outer_steps, err) ||

@@ -23,7 +23,7 @@ int sim_restart(Sim *sim, const Param *par, const Parts *parts, const char *devi
 typedef struct {
   double dt;  /* s */
   int limit;  /* enum of LIMIT_NAMES, or LIMITS (output), LIMITS + 1 (error control), LIMITS + 2
-                 (step.max), LIMITS + 3 (point masses) */
+                 (step.max), LIMITS + 3 (point masses), LIMITS + 4 (step.first) */
   int64_t id; /* the particle, or -1 */
 } SimStep;
 

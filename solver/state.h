@@ -53,6 +53,7 @@ typedef struct {
   Image *image;   /* [room - n]; NULL: there are none */
   Bounds bounds;
   int dimension;
+  double h_min, h_max;      /* range of h [m]; 0, INFINITY: h does not change */
   int rare;                 /* any material has laws that few runs need (material_rare) */
   const Material *material; /* [materials], indexed by mat */
   const double *flaw;       /* thresholds of all particles, ascending within one */

@@ -37,7 +37,7 @@ like_whole() {
   cd "$BATS_FILE_TMPDIR/whole/run"
   [ "$(ls snap_*.h5 | wc -l)" = 11 ]
   [ "$(head -c 6 conserved.tsv)" = '# step' ]
-  awk -F'\t' 'NR > 1 && (NF != 30 || $1 != NR - 2) {exit 1}' conserved.tsv # every step once
+  awk -F'\t' 'NR > 1 && (NF != 32 || $1 != NR - 2) {exit 1}' conserved.tsv # every step once
   true_that 'near(b - a, 3000, 1e-12)' a="$(number snap_0000.h5 /Header/Time)" b="$(number snap_0010.h5 /Header/Time)"
   h5dump -a /Step#10/TimeValue run.h5part | grep -q '(0)'
   h5dump -d /Parameters/Value snap_0003.h5 >/dev/null || h5ls snap_0003.h5/Parameters >/dev/null
@@ -185,6 +185,14 @@ refused() {
   refused "'stdin' lacks field 'SmoothingLength'" 'cat lacks.h5 | solver -o run --end +1s'
   bad 1 "'negative.h5': particle 6: Masses is -3.70811e+16, must be positive" solver -o run --end +1s negative.h5
   [ ! -e run ]
+}
+
+@test "h at its limits is counted and said" {
+  solver -o run --end +300s -s smoothing.max=1 -s smoothing.min=1 ../s.h5 2>said
+  awk -F'\t' 'NR == 1 {for (k = 1; k <= NF; k++) {if ($k == "h_at_min") low = k; if ($k == "h_at_max") high = k}}
+    NR > 1 {n += $low + $high} END {exit !(low && high && n > 0)}' run/conserved.tsv
+  grep -q 'particles have the smallest h allowed, smoothing.min\|particles have the largest h allowed, smoothing.max' run/run.log
+  grep -q 'had the smallest h allowed, [0-9]* the largest' said
 }
 
 @test "bad settings: one line, and no folder" {

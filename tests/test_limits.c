@@ -10,6 +10,15 @@ static const char JELLY[] =
     "name = \"jelly\"; eos = { form = \"murnaghan\"; rho0 = 1.; K = 1.; n = 2.; };"
     "strength = { shear_modulus = 1.; form = \"none\"; };";
 
+static const char PUMICE[] =
+    "name = \"p\"; eos = { form = \"murnaghan\"; rho0 = 1.; K = 1.; n = 2.; };"
+    "strength = { shear_modulus = 1.; form = \"none\"; };"
+    "porosity = { form = \"p_alpha\"; alpha_0 = 1.3; p_e = 1e-3; p_s = 0.1; };";
+static const char BRITTLE[] =
+    "name = \"b\"; eos = { form = \"murnaghan\"; rho0 = 1.; K = 1.; n = 2.; };"
+    "strength = { shear_modulus = 1.; form = \"none\"; };"
+    "damage = { form = \"grady_kipp\"; k = 1e10; m = 5.; };";
+
 static int in_ball(const double *x, void *data)
 {
   (void)data;
@@ -32,6 +41,57 @@ static Parts *ball_of(const char *material, double u, double hubble)
 
 static Parts *ball(double u, double hubble) { return ball_of(GAS, u, hubble); }
 
+/* Crushes and shears: PUMICE, rather loose. */
+static Parts *pores(void)
+{
+  Parts *p = ball_of(PUMICE, 0, -.05);
+  for (long i = 0; i < p->n; i++) p->rho[i] = .77, p->v[3 * i] += .1 * p->x[3 * i + 1];
+  return p;
+}
+
+/* JELLY that tears, with one flaw each. */
+static Parts *flaws(void)
+{
+  Parts *p = ball_of(BRITTLE, 0, .05);
+  p->nflaw = malloc(sizeof *p->nflaw * (size_t)p->n);
+  p->flaw = malloc(sizeof *p->flaw * (size_t)p->n);
+  p->flaws = p->n;
+  for (long i = 0; i < p->n; i++) p->nflaw[i] = 1, p->flaw[i] = 1e-4;
+  return p;
+}
+
+/* The step that criterion `want` allows to particle i (theory, 5.4). */
+static double allowed(const char *want, const State *s, const Param *par, double dilation, long i)
+{
+  const double *a = &s->a[3 * i], *t = &s->s[6 * i], c = s->cs[i], n = s->nngb[i];
+  const double few = .5 * (1 - tanh((n - par->fewest * par->neighbours) / par->width)),
+               many = .5 * (1 + tanh((n - par->most * par->neighbours) / par->width));
+  double rate = s->divv[i] / 3, size = 0, change = 0;
+  if (par->smoothing == PARAM_OVERCORRECTED)
+    rate = few * dilation + (1 - few - many) * rate - many * dilation;
+  if (!strcmp(want, "cfl")) return par->cfl * s->h[i] / s->signal[i];
+  if (!strcmp(want, "density")) return par->step_density / fabs(s->divv[i]);
+  if (!strcmp(want, "energy"))
+    return s->dudt[i] < 0 ? par->step_energy * (s->u[i] + par->energy_least) / -s->dudt[i]
+                          : INFINITY;
+  if (!strcmp(want, "smoothing")) return par->step_smoothing / fabs(rate);
+  if (!strcmp(want, "damage"))
+    return par->step_damage * (cbrt(s->damage[i]) + par->damage_least) / s->dcrack[i];
+  if (!strcmp(want, "distention")) return par->step_distention / fabs(s->dalpha[i]);
+  if (!strcmp(want, "pressure"))
+    return par->step_pressure * 1e-3 / (s->rho[i] * c * c * fabs(s->divv[i]));
+  if (!strcmp(want, "stress")) {
+    const double *g = &s->g[9 * i];
+    Sym now = {t[0], t[1], t[2], t[3], t[4], t[5]}, r = passes_jaumann(now, g, 1);
+    size = now.xx * now.xx + now.yy * now.yy + now.zz * now.zz +
+           2 * (now.xy * now.xy + now.xz * now.xz + now.yz * now.yz);
+    change =
+        r.xx * r.xx + r.yy * r.yy + r.zz * r.zz + 2 * (r.xy * r.xy + r.xz * r.xz + r.yz * r.yz);
+    return par->step_stress * (sqrt(size) + par->stress_least) / sqrt(change);
+  }
+  return par->step_acceleration * sqrt(s->h[i] / sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]));
+}
+
 /* The `steps`-th step of a run; checks that dt, limit and particle agree with the state before
  * it. */
 static void limit(const char *want, Parts *p, Param par, int steps, double until)
@@ -44,16 +104,10 @@ static void limit(const char *want, Parts *p, Param par, int steps, double until
   for (int k = 0; k < steps; k++) {
     State now = lab_state(&sim);
     const State *s = &now;
+    double dilation = 0;
     expect = INFINITY;
-    for (long i = 0; i < s->n; i++) {
-      const double *a = &s->a[3 * i];
-      double one = strcmp(want, "cfl") == 0 ? par.cfl * s->h[i] / s->signal[i]
-                   : strcmp(want, "density") == 0
-                       ? par.step_density / fabs(s->divv[i])
-                       : par.step_acceleration *
-                             sqrt(s->h[i] / sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]));
-      expect = fmin(expect, one);
-    }
+    for (long i = 0; i < s->n; i++) dilation = fmax(dilation, fabs(s->divv[i]));
+    for (long i = 0; i < s->n; i++) expect = fmin(expect, allowed(want, s, &par, dilation, i));
     lab_forget(&now);
     if (sim_advance(&sim, until, &done, &err)) fail_msg("%s", err.text);
   }
@@ -75,6 +129,21 @@ static void names(void **state)
   limit("cfl", ball(1, 0), lab_param(none, "step.acceleration=2", NULL), 1, 1e9);
   limit("acceleration", ball(1e-9, 0), lab_param("gravity.G=1", NULL), 1, 1e9);
   limit("density", ball(1e-9, 1), lab_param(none, NULL), 1, 1e9);
+  limit("first", ball(1, 0), lab_param(none, "step.first=1e-3", NULL), 1, 1e9);
+  limit("energy", ball(1, 1), lab_param(none, "step.energy=0.001", "step.energy_least=0.1", NULL),
+        3, 1e9);
+  limit("smoothing", ball(1, 1), lab_param(none, "step.smoothing=0.001", NULL), 3, 1e9);
+  limit("smoothing", ball(1, 1),
+        lab_param(none, "step.smoothing=0.001", "smoothing.mode=overcorrected", NULL), 3, 1e9);
+  limit("stress", ball_of(JELLY, 0, .1),
+        lab_param(none, "step.stress=0.001", "step.stress_least=0.1", NULL), 3, 1e9);
+  limit("damage", flaws(), lab_param(none, "step.damage=0.001", "step.damage_least=0.1", NULL), 9,
+        1e9);
+  for (int rk = 0; rk < 2; rk++) {
+    const char *integrator = rk ? "integrator=rk3-tvd" : "integrator=leapfrog";
+    limit("distention", pores(), lab_param(none, integrator, "step.distention=1e-6", NULL), 3, 1e9);
+    limit("pressure", pores(), lab_param(none, integrator, "step.pressure=1e-3", NULL), 3, 1e9);
+  }
   limit("max", ball(1, 0), lab_param(none, "step.max=1e-3", NULL), 1, 1e9);
   limit("output", ball(1, 0), lab_param(none, NULL), 1, 1e-3);
   for (int steps = 1; steps <= 2; steps++) /* shortened by the error, then begun as it allows */

@@ -168,13 +168,14 @@ static void isentropic(void **state)
   }
 }
 
-/* Smoothing: fixed keeps h; density keeps h rho^(1/D); neighbours brings 30 to the 60 asked for. */
+/* Smoothing: fixed keeps h; density keeps h rho^(1/D); neighbours brings 26 to the 60 asked for,
+ * overcorrected lets h grow while they are too few. */
 static void smoothing(void **state)
 {
   static const char *const modes[] = {"smoothing.mode=fixed", "smoothing.mode=density",
-                                      "smoothing.mode=neighbours"};
+                                      "smoothing.mode=neighbours", "smoothing.mode=overcorrected"};
   (void)state;
-  for (int k = 0; k < 6; k++) {
+  for (int k = 0; k < 8; k++) {
     Parts *p = balls(1, GAS);
     Param par = lab_param("gravity.method=none", "smoothing.neighbours=60", modes[k / 2],
                           integrators[k % 2], "step.max=0.005", NULL);
@@ -197,6 +198,7 @@ static void smoothing(void **state)
     if (k / 2 == 0) assert_true(worst == 0);
     if (k / 2 == 1) assert_true(worst < 1e-4 && least < .21);
     if (k / 2 == 2) assert_true(fabs(mean / 60 - 1) < .1);
+    if (k / 2 == 3) assert_true(mean > 30 && worst > .1 && worst < .3);
     sim_close(&sim);
     part_free(p);
   }

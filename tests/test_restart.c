@@ -111,6 +111,13 @@ static const Case cases[] = {
      "smoothing.mode=neighbours"},
     {"integrator=ab2", "density=continuity", "gravity.method=tree", "step.cfl=0.3"},
     {"integrator=ab2", "density=sum", "gravity.method=none", "precision=double"},
+    {"integrator=leapfrog", "density=continuity", "gravity.method=none",
+     "smoothing.mode=overcorrected smoothing.neighbours=90 step.smoothing=0.1 step.distention=0.01 "
+     "step.stress=1"},
+    {"integrator=leapfrog", "density=continuity", "gravity.method=tree",
+     "late.time=0.5 late.bulk_modulus=0.1"},
+    {"integrator=ab2", "density=continuity", "gravity.method=none",
+     "late.time=0.8 late.bulk_modulus=0.1"},
     {"integrator=euler", "density=continuity", "gravity.method=tree", "step.cfl=0.1"},
 };
 

@@ -94,6 +94,7 @@ static int cpu_open(Sim *sim, const Parts *p, Err *err)
   sim->s.bounds = sim->bounds;
   sim->s.dimension = p->dimension;
   sim->s.rare = sim->rare;
+  backend_range(sim);
   sim->s.material = sim->material;
   c->order = malloc((n + 1) * sizeof *c->order);
   c->record = malloc((n + 1) * CPU_RECORD * sizeof(double));

@@ -33,7 +33,7 @@ int cpu_limits(Sim *sim, const Step *step, Limits *out, Err *err)
   {
     Limits mine = reduce_no_limits();
 #pragma omp for schedule(static) nowait
-    for (long i = 0; i < s->n; i++) reduce_add_limits(&mine, s, step, i);
+    for (long i = 0; i < s->n; i++) reduce_add_limits(&mine, s, step, i, step->limited);
 #pragma omp critical
     reduce_merge_limits(out, &mine);
   }
@@ -65,7 +65,7 @@ int cpu_error(Sim *sim, const Step *step, double *worst, Err *err)
   (void)err;
 #pragma omp parallel for reduction(max : most)
   for (long i = 0; i < s->n; i++) {
-    const double e = reduce_error(s, step->dt, i);
+    const double e = reduce_error(s, step, i);
     most = e > most ? e : most;
   }
   *worst = most;

@@ -113,6 +113,7 @@ static int cuda_open(Sim *sim, const Parts *p, Err *err)
   memset(&sim->s, 0, sizeof sim->s);
   sim->s.n = sim->s.all = p->n, sim->s.room = cuda_images_room(sim, p);
   sim->s.bounds = sim->bounds, sim->s.dimension = p->dimension, sim->s.rare = sim->rare;
+  backend_range(sim);
   CHECK(cudaSetDevice(sim->card));
   CHECK(cudaStreamCreateWithFlags(&c->stream, cudaStreamNonBlocking));
   if (!launch_failed(error, err) && !look_at_card(sim, p, err) && !cuda_state_open(sim, p, err) &&

@@ -14,9 +14,14 @@ typedef struct {
   double worst;
 } Worst;
 
-/* The results, on the device and in pinned memory. */
+/* With the limits that may be off: a kernel of its own, as they take registers. */
 typedef struct {
   Limits limits;
+} LimitsAsked;
+
+/* The results, on the device and in pinned memory. */
+typedef struct {
+  LimitsAsked limits;
   ReduceSums sums;
   ReduceMotion motion[BODIES];
   ReduceSpin spin[BODIES];
@@ -39,11 +44,16 @@ typedef struct {
 
 /* Each reduction by the type of its result: none of any particle, one more, two joined. */
 static __device__ void start(Limits *o) { *o = reduce_no_limits(); }
+static __device__ void start(LimitsAsked *o) { o->limits = reduce_no_limits(); }
 template <class T> static __device__ void start(T *o) { memset(o, 0, sizeof *o); }
 
 static __device__ void add(Limits *o, const Context &c, int, long i)
 {
-  reduce_add_limits(o, &c.s, &c.k, i);
+  reduce_add_limits(o, &c.s, &c.k, i, 0);
+}
+static __device__ void add(LimitsAsked *o, const Context &c, int, long i)
+{
+  reduce_add_limits(&o->limits, &c.s, &c.k, i, 1);
 }
 static __device__ void add(ReduceSums *o, const Context &c, int, long i)
 {
@@ -66,11 +76,15 @@ static __device__ void add(PointReaction *o, const Context &c, int, long i)
 }
 static __device__ void add(Worst *o, const Context &c, int, long i)
 {
-  double e = reduce_error(&c.s, c.k.dt, i);
+  double e = reduce_error(&c.s, &c.k, i);
   o->worst = e > o->worst ? e : o->worst;
 }
 
 static __device__ void merge(Limits *a, const Limits *b) { reduce_merge_limits(a, b); }
+static __device__ void merge(LimitsAsked *a, const LimitsAsked *b)
+{
+  reduce_merge_limits(&a->limits, &b->limits);
+}
 static __device__ void merge(ReduceSums *a, const ReduceSums *b) { reduce_merge_sums(a, b); }
 static __device__ void merge(ReduceMotion *a, const ReduceMotion *b) { reduce_merge_motion(a, b); }
 static __device__ void merge(ReduceSpin *a, const ReduceSpin *b) { reduce_merge_spin(a, b); }
@@ -143,9 +157,12 @@ static int fetch(Sim *sim, Err *err)
 int cuda_limits(Sim *sim, const Step *step, Limits *out, Err *err)
 {
   struct CudaReduce *r = cuda_of(sim)->reduce;
-  reduce(sim, step, 1, &r->device->limits);
+  if (step->limited)
+    reduce(sim, step, 1, &r->device->limits);
+  else
+    reduce(sim, step, 1, &r->device->limits.limits);
   if (fetch(sim, err)) return -1;
-  *out = r->host->limits;
+  *out = r->host->limits.limits;
   return 0;
 }
 

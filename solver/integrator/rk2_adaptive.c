@@ -13,7 +13,7 @@ static int trial(Sim *sim, double dt, double *error, Err *err)
   Step k = sim_step(sim, dt);
   if (integrator_stages(sim, &k, STAGES, 3, err)) return -1;
   if (sim->b->error(sim, &k, error, err)) return -1;
-  *error = fmax(*error, points_error(sim, dt)) / sim->par.step_error;
+  *error = fmax(*error, points_error(sim, dt) / sim->par.step_error);
   return 0;
 }
 
@@ -30,8 +30,8 @@ static int step(Sim *sim, double *dt, Err *err)
       return err_set(err, "the error control wants a step of %.3g s", *dt);
     sim->b->pass(sim, PASS_COMBINE, &k);
   }
-  factor = error > 0 ? 0.9 * pow(error, -0.3) : 2;
-  sim->dt = *dt * fmin(2, fmax(1, factor));
+  factor = error > 0 ? 0.9 * pow(error, -0.3) : sim->par.step_growth;
+  sim->dt = *dt * fmin(sim->par.step_growth, fmax(1, factor));
   integrator_settle(sim, *dt);
   return 0;
 }
