@@ -53,10 +53,11 @@ shape() { h5ls "$1/$2" | sed 's/.*{\(.*\)}.*/\1/'; }
   for plane in xy xz yz; do
     grid -w slice -p $plane -n 21 --box 1200km -o s.h5 a.h5
     case $plane in
-    xy) [ "$(shape s.h5 Density)" = "1, 21, 21" ] && pick='int(n/441) == 10' ;;
-    xz) [ "$(shape s.h5 Density)" = "21, 1, 21" ] && pick='int(n/21) % 21 == 10' ;;
-    yz) [ "$(shape s.h5 Density)" = "21, 21, 1" ] && pick='n % 21 == 10' ;;
+    xy) want='1, 21, 21' pick='int(n/441) == 10' ;;
+    xz) want='21, 1, 21' pick='int(n/21) % 21 == 10' ;;
+    yz) want='21, 21, 1' pick='n % 21 == 10' ;;
     esac
+    [ "$(shape s.h5 Density)" = "$want" ]
     paste <(values s.h5 Density) <(values v.h5 Density | awk "{ n = NR - 1 } $pick") |
       awk '{ d = $1 - $2; if (($1 ~ /nan/) != ($2 ~ /nan/) || d*d > 1e-4) bad++; n++ } END { exit !(n == 441 && !bad) }'
   done
@@ -68,7 +69,9 @@ shape() { h5ls "$1/$2" | sed 's/.*{\(.*\)}.*/\1/'; }
     OMP_NUM_THREADS=3 grid -n 9x8x7 --box 1000km,900km,800km -f Density -f u=InternalEnergy -F "${f/h5/hdf5}" <a.h5 >2.$f
   done
   cmp 1.vti 2.vti
-  [ "$(head -1 1.vtk)" = "# vtk DataFile Version 3.0" ] && grep -aq '^DIMENSIONS 10 9 8$' 1.vtk && grep -aq '^CELL_DATA 504$' 1.vtk
+  [ "$(head -1 1.vtk)" = "# vtk DataFile Version 3.0" ]
+  grep -aq '^DIMENSIONS 10 9 8$' 1.vtk
+  grep -aq '^CELL_DATA 504$' 1.vtk
   values 1.h5 Density >want
   # legacy: big-endian floats behind the first LOOKUP_TABLE line
   at=$(grep -abo 'LOOKUP_TABLE default' 1.vtk | head -1 | cut -d: -f1)
@@ -85,7 +88,8 @@ shape() { h5ls "$1/$2" | sed 's/.*{\(.*\)}.*/\1/'; }
 
 @test "where the cells are" {
   grid -n 10x20x5 --box 1000km,2000km,500km -C 1km,2km,3km -o p.h5 a.h5
-  [ "$(values p.h5 x | head -1)" = -449000 ] && [ "$(values p.h5 z | tail -1)" = 203000 ]
+  [ "$(values p.h5 x | head -1)" = -449000 ]
+  [ "$(values p.h5 z | tail -1)" = 203000 ]
   [ "$(shape p.h5 Density)" = "5, 20, 10" ]
   grid -n 10 --box 1000km,500km,260km -o p.h5 a.h5 # cubes
   [ "$(shape p.h5 Density)" = "3, 5, 10" ]

@@ -121,7 +121,8 @@ mock_ffmpeg() {
 @test "a movie: every snapshot a frame, with common colours" {
   mock_ffmpeg
   PATH=$PWD/mock:$PATH render --size 321x200 --movie 25 -c Density -o m.mp4 a.h5 b.h5 two.h5
-  [ "$(<count)" = $((320 * 200 * 3 * 3)) ] && [ "$(<m.mp4)" = "$(<count)" ]
+  [ "$(<count)" = $((320 * 200 * 3 * 3)) ]
+  [ "$(<m.mp4)" = "$(<count)" ]
   grep -q -- '-s 320x200 -framerate 25 -i - .*-c:v libx264 .*-f mp4 ' said
   PATH=$PWD/mock:$PATH render --size 320x200 --movie 5 -o m.gif a.h5
   grep -q -- 'paletteuse .*-f gif ' said
@@ -138,7 +139,8 @@ mock_ffmpeg() {
   export PATH="$PWD/mock:$PATH"
   BAD=3 fails 1 "ffmpeg could not write" render --movie 5 -o x.mp4 a.h5
   fails 1 "'none.h5'" render --movie 5 -o x.mp4 a.h5 none.h5
-  only=$(dirname "$(command -v render)") && rm -r mock
+  only=$(dirname "$(command -v render)")
+  rm -r mock
   [ ! -x "$only/ffmpeg" ]
   fails 1 "needs ffmpeg, which is not there" env PATH="$only" render --movie 5 -o x.mp4 a.h5
   [ -z "$(find . -name '.x.mp4*')" ]
