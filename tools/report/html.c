@@ -24,6 +24,7 @@ static const char style[] =
   "a:hover{text-decoration:underline}\n"
   "figure{margin:0 0 1.6rem}figure img,figure video{display:block;width:100%;height:auto;border-radius:6px;"
   "border:1px solid var(--line)}\n"
+  "figure.small{display:inline-block;width:calc(50% - 1.1rem);margin-right:.8rem;vertical-align:top}\n"
   "figcaption,.note{font-size:.9rem;margin:.5rem 0;overflow-wrap:anywhere}\n"
   ".wide{overflow-x:auto;border:1px solid var(--line);border-radius:6px;margin:.4rem 0 1rem}\n"
   "table{border-collapse:collapse;width:100%;font-size:.88rem;font-variant-numeric:tabular-nums}\n"
@@ -39,6 +40,7 @@ static const char style[] =
   "code{font:.86em ui-monospace,'DejaVu Sans Mono',monospace}\n"
   "details{margin:.4rem 0}summary{cursor:pointer;color:var(--accent);padding:.25rem 0}\n"
   "footer{margin-top:3rem;padding-top:.8rem;border-top:1px solid var(--line);color:var(--soft);font-size:.85rem}\n"
+  "@media(max-width:600px){figure.small{width:100%;margin-right:0}}\n"
   "@media(max-width:600px){main{padding:1rem .9rem 3rem}h1{font-size:1.4rem}dl{grid-template-columns:1fr;gap:0}"
   "dd{margin-bottom:.6rem}}\n"
   "@media print{details{display:none}}\n";
@@ -138,6 +140,13 @@ static const char *media(const unsigned char *b, size_t n)
   return NULL;
 }
 
+/* Whether two go side by side: PNGs of up to 700 px. */
+static int is_small(const unsigned char *b, const char *type, size_t n)
+{
+  return !strcmp(type, "image/png") && n > 20 && b[16] == 0 && b[17] == 0 &&
+         b[18] * 256 + b[19] <= 700;
+}
+
 int html_picture(FILE *f, const char *path, const char *caption, Err *err)
 {
   size_t n;
@@ -146,8 +155,9 @@ int html_picture(FILE *f, const char *path, const char *caption, Err *err)
   if (data && !type) err_set(err, "'%s' is no PNG, JPEG, GIF, SVG, MP4 or WebM", path);
   if (type) {
     int film = !strncmp(type, "video", 5);
-    fprintf(f, "<figure><%s src=\"data:%s;base64,", film ? "video controls loop muted" : "img",
-            type);
+    fprintf(f, "<figure%s><%s src=\"data:%s;base64,",
+            is_small(data, type, n) ? " class=\"small\"" : "",
+            film ? "video controls loop muted" : "img", type);
     base64(f, data, n);
     element(f, film ? "\" title=\"" : "\" alt=\"", caption, film ? "\"></video>" : "\">");
     element(f, "<figcaption>", caption, "</figcaption></figure>\n");
