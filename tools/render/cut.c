@@ -11,10 +11,8 @@ enum { BAND = 32 };
 #define FILL                                                                                       \
   0.68f /* radius of a sphere in units of (m/rho)^(1/3): without gaps in a close packing, whose    \
            holes lie 0.64 away */
-#define FACE                                                                                       \
-  1.3f /* radius on a face in units of that: holes of a close packing lie up to 0.794 away, those    \
-          of a body at rest somewhat more, and a face meets some */
-#define FOG 0.45f /* what lies one picture height behind is darker by about this */
+#define FACE 1.3f  /* radius on a face in units of that: it meets larger holes, up to 0.794 away */
+#define FOG  0.45f /* what lies one picture height behind is darker by about this */
 
 static const float lamp[3] = {-0.45f, 0.50f, 0.74f}; /* from the upper left */
 
