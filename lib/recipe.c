@@ -37,7 +37,8 @@ static int state(StructureLayer *l, const char *word, Err *err)
   if (!strcmp(word, "T=continuous")) return l->anchor = STRUCTURE_CONTINUOUS, 0;
   if (!strncmp(word, "power=", 6)) {
     l->power = 1;
-    return unit_parse(word + 6, "1", &l->exponent, err);
+    if (unit_parse(word + 6, "1", &l->exponent, err)) return -1;
+    return fabs(l->exponent) <= 10 ? 0 : err_set(err, "%s is not in -10 to 10", word);
   }
   if (!strncmp(word, "pores=", 6)) {
     if (unit_parse(word + 6, "1", &l->pores, err)) return -1;

@@ -89,6 +89,9 @@ mass() { field "$1" Masses | awk '{ m += $1 } END { printf "%.15g", m }'; }
   bad 2 "no cylinder in 2D" mkshape -d 2 --shape cylinder --size 1,2 -l ice
   bad 2 "two layers" mkshape --shape tank --size 1,1,1,1 -l ice
   bad 2 "MIN:MAX" mkshape --size 1,1,1 -l ice --rubble 3
+  bad 2 "the slope, -2, is negative" mkshape --size 1,1,1 -l ice --rubble 1cm:2cm:-2
+  bad 1 "more than 1023 boulders" mkshape --size 1,1,1 -l ice --rubble 1mm:1mm -n 100
+  bad 2 "--neighbours 1000 of 100 particles" mkshape --size 1,1,1 -l ice -n 100 --neighbours 1000
   bad 2 "0 < MIN" mkshape --size 1,1,1 -l ice --rubble 3:2
   bad 1 "no sphere of 3 m fits" mkshape --size 1,1,1 -l ice --rubble 3:4
   bad 2 "--mesh needs --shape mesh" mkshape --mesh a.stl -l ice

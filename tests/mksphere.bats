@@ -149,6 +149,8 @@ setup() { cd "$BATS_TEST_TMPDIR"; }
   bad 1 "cannot open 'no.tsv'" mksphere -p no.tsv
   bad 1 "heat_capacity" mksphere --layer ./cold.cfg --mass 1 -T 5
   bad 2 "which material" mksphere --mass 1
+  bad 2 "power=-500 is not in -10 to 10" mksphere --mass 1 --layer basalt::power=-500,T=300
+  bad 2 "--neighbours 1e+09 of 100 particles" mksphere --mass 1 --layer basalt -n 100 --neighbours 1e9
   bad 2 "not positive" mksphere --mass -1 --layer ice
   bad 2 "not positive" mksphere --radius 0 --layer ice
   bad 2 "sum to 0.9, not to 1" mksphere --mass 1 --layer ice:0.5 --layer basalt:0.4

@@ -151,6 +151,7 @@ static void check_options(void)
   if (!strcmp(o.lattice, "grid") && o.rotate >= 0) err_usage("a grid is not turned");
   if (o.n < 1 || o.n > 2000000000) err_usage("number of particles %ld is not in 1..2e9", o.n);
   if (!isnan(o.neighbours) && o.neighbours <= 1) err_usage("--neighbours must be greater than 1");
+  if (o.neighbours > (double)o.n) err_usage("--neighbours %g of %ld particles", o.neighbours, o.n);
   if (o.energy < 0) err_usage("energy %g J/kg is negative", o.energy);
   if (o.spin == 0) err_usage("a spin period of 0 s is infinitely fast");
   if (opt_given(&PROGRAM, "rotate") && o.rotate < 0) err_usage("seed %ld is negative", o.rotate);
@@ -236,6 +237,7 @@ static PackOptions read_rubble(void)
       (slope && unit_parse(slope, "1", &p.slope, &err)))
     err_usage("--rubble: %s", err.text);
   if (!(p.low > 0 && p.high >= p.low)) err_usage("--rubble: not 0 < MIN <= MAX");
+  if (!(p.slope >= 0)) err_usage("--rubble: the slope, %g, is negative", p.slope);
   free(copy);
   return p;
 }
@@ -248,6 +250,9 @@ static long fill_rubble(Fill *f, Lattice lattice, double **r, double *volume)
   Err err;
   long n = pack_spheres(f->shape, &p, &x, r, &err);
   if (n < 0) err_die("%s", err.text);
+  if (n == BOULDERS)
+    err_die("more than %d boulders, which are as many as programs tell apart: give larger ones",
+            BOULDERS - 1);
   for (long k = 0; k < n; k++) *volume += 4 * PI / 3 * pow((*r)[k], 3);
   f->spacing = cbrt(*volume / (double)o.n / lattice_volume(lattice, 3));
   for (long k = 0; k < n; k++) {

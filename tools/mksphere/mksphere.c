@@ -90,6 +90,7 @@ static void check_options(void)
   if (o.dimension < 1 || o.dimension > 3) err_usage("dimension %ld is not 1, 2 or 3", o.dimension);
   if (o.n < 1 || o.n > 2000000000) err_usage("number of particles %ld is not in 1..2e9", o.n);
   if (!isnan(o.neighbours) && o.neighbours <= 1) err_usage("--neighbours must be greater than 1");
+  if (o.neighbours > (double)o.n) err_usage("--neighbours %g of %ld particles", o.neighbours, o.n);
   if (o.spin == 0) err_usage("a spin period of 0 s is infinitely fast");
   if (opt_given(&PROGRAM, "rotate") && o.rotate < 0) err_usage("seed %ld is negative", o.rotate);
   if (o.dimension == 1 && (!isnan(o.spin) || o.rotate >= 0))

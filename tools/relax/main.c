@@ -3,10 +3,12 @@
  * on the particles; then the solver runs with friction and frozen entropy, first with a friction
  * time that stops sound, then with one that stops gravity modes; a proof run without friction shows
  * what the body does when left alone (docs/theory.md). A body at rest is recognised. */
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include "../../lib/snap.h"
 #include "../../lib/spool.h"
@@ -123,6 +125,21 @@ static Span span(const char *name, const char *text)
   return t;
 }
 
+/* Before anything is computed: whether a file can be made there. */
+static void check_file(const char *option, const char *path)
+{
+  char *folder, *slash;
+  struct stat there;
+  if (!path) return;
+  if (!strcmp(path, "-")) err_usage("--%s needs a file", option);
+  if (!stat(path, &there) && !S_ISREG(there.st_mode)) return; /* a device, a pipe */
+  if (!(folder = strdup(path))) err_die("out of memory");
+  slash = strrchr(folder, '/');
+  if (slash) slash[slash == folder] = 0;
+  if (access(slash ? folder : ".", W_OK)) err_die("cannot write '%s': %s", path, strerror(errno));
+  free(folder);
+}
+
 /* What has no effect without a run is refused. */
 static void check_only(void)
 {
@@ -144,7 +161,9 @@ static void check_options(void)
   if (!(o.damping.s + o.damping.falls > 0)) err_usage("--damping must be positive");
   if (!(o.max_time.s + o.max_time.falls > 0)) err_usage("--max-time must be positive");
   if (o.proof.s + o.proof.falls < 0) err_usage("--proof must not be negative");
-  if (o.checkpoint && !strcmp(o.checkpoint, "-")) err_usage("--checkpoint needs a file");
+  check_file("checkpoint", o.checkpoint), check_file("report", o.report);
+  check_file("profile", o.profile);
+  if (strcmp(o.output, "-") != 0) check_file("output", o.output);
   run_settings(&o, 1, 0);
 }
 
