@@ -27,6 +27,9 @@
   F(int32_t, nact,   1, "ActiveFlaws",      "1",        "solver",   "flaws activated so far") \
   F(double,  phi,    1, "Potential",        "J/kg",     "solver",   "specific gravitational potential") \
   F(double,  pmax,   1, "PeakPressure",     "Pa",       "solver",   "largest pressure so far") \
+  F(double,  Tmax,   1, "PeakTemperature",  "K",        "solver",   "largest temperature so far, of materials that have one") \
+  F(double,  shock,  1, "ViscousWork",      "J/kg",     "solver",   "heat made by viscosity so far (watch.viscous_work)") \
+  F(double,  lifted, 1, "FloorEnergy",      "J/kg",     "solver",   "energy that energy_floor has added so far") \
   F(double,  strain, 1, "PlasticStrain",    "1",        "solver",   "accumulated equivalent plastic strain") \
   F(double,  T,      1, "Temperature",      "K",        "solver",   "temperature, of materials whose strength depends on it") \
   F(int32_t, nngb,   1, "NeighbourNumber",  "1",        "solver",   "interacting particles, without itself") \

@@ -46,6 +46,9 @@ static long find(Sim *sim, int64_t id)
 int backend_idle(const Sim *sim, const char *member)
 {
   return (strcmp(member, "T") == 0 && !sim->heated) ||
+         (strcmp(member, "Tmax") == 0 && !sim->heated) ||
+         (strcmp(member, "shock") == 0 && !sim->par.viscous_work) ||
+         (strcmp(member, "lifted") == 0 && !(sim->par.energy_floor > -1e300)) ||
          (strncmp(member, "old_", 4) == 0 && !sim->memory) ||
          ((strcmp(member, "alpha") == 0 || strcmp(member, "dalpha") == 0) && !sim->porous);
 }

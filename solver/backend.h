@@ -17,6 +17,9 @@ struct Sums {
   double
       outside[3]; /* particles outside their table: in density, above it and below it in energy */
   double held[2]; /* particles whose h is at its smallest, at its largest */
+  double lifted;  /* J that energy_floor has added */
+  double at_floor
+      [3]; /* particles whose energy, density (within 1 %) or pressure is the least allowed */
 };
 
 /* The smallest time step that a criterion allows, which and to whom; the first particle in a bad

@@ -7,6 +7,14 @@
 
 #include "sim.h"
 
+/* conflict_mirrors: whether a face is a mirror. */
+static inline int conflict_mirrors(const Param *p)
+{
+  int any = 0;
+  for (int d = 0; d < 3; d++) any |= p->faces[d] != PARAM_OPEN && p->faces[d] != PARAM_PERIODIC;
+  return any;
+}
+
 /* C(key, other key, condition, why): both cannot be as they are. */
 /* clang-format off */
 #define CONFLICTS(C) \
@@ -19,6 +27,14 @@
   C("step.max", "step.min", p->step_max > 0 && p->step_max <= p->step_min, "no step is left between the two") \
   C("heating.profile", "heating.radius", p->deposit_profile && p->deposit_radius == 0, "it needs a radius") \
   C("heating.begin", "heating.end", p->deposit_begin >= p->deposit_end, "no time is left between the two") \
+  C("guard.energy", "energy", p->guard_energy > 0 && p->energy != PARAM_FULL, "energy is not kept then") \
+  C("guard.energy", "heating.rate", p->guard_energy > 0 && p->deposit != 0, "energy comes from outside") \
+  C("guard.energy", "damping.rate", p->guard_energy > 0 && p->damping > 0, "energy is taken away") \
+  C("guard.energy", "walls or a layer", p->guard_energy > 0 && s->hold.on, "they give and take energy") \
+  C("guard.momentum", "walls or a layer", p->guard_momentum > 0 && s->hold.on, "they give and take momentum") \
+  C("guard.angular_momentum", "walls or a layer", p->guard_angular > 0 && s->hold.on, "they exert torques") \
+  C("guard.angular_momentum", "faces of boundary", p->guard_angular > 0 && s->bounds.on, "they exert torques") \
+  C("guard.momentum", "a mirror of boundary", p->guard_momentum > 0 && conflict_mirrors(p), "it takes momentum up") \
   CONFLICT_AXES(C)
 
 /* The same for each axis. */
@@ -99,6 +115,7 @@
   U("heating.end", p->deposit == 0, "heating.rate") \
   U("boundary.low", !s->bounds.on && !s->hold.on, "no axis of boundary has a face, nor a layer") \
   U("boundary.high", !s->bounds.on && !s->hold.on, "no axis of boundary has a face, nor a layer") \
+  U("watch.viscous_work", p->viscous_work && p->energy != PARAM_FULL, "energy") \
   U("layer.strength", !s->hold.on, "there is no layer")
 /* clang-format on */
 

@@ -63,7 +63,7 @@ HD_CALL double matter_tension(const State *s, const Material *m, long i, double 
 }
 
 /* matter_eos: p, cs and the longitudinal wave speed of i at energy u; with strength on, no more
- * tension than the yield law has. */
+ * tension than the yield law has; no pressure below its floor. */
 HD void matter_eos(const State *s, long i, double u, int strength)
 {
   const Material *m = &s->material[s->mat[i]];
@@ -78,6 +78,7 @@ HD void matter_eos(const State *s, long i, double u, int strength)
   s->ue[i] = u;
   if (s->rare && e.p < 0 && strength && m->mu > 0 && yield_knows_pressure(&m->yield))
     e.p = matter_tension(s, m, i, e.p, alpha * s->rho[i]);
+  if (s->floors.pressure && e.p < s->floors.p) e.p = s->floors.p;
   s->p[i] = e.p;
   s->cs[i] = e.cs;
   s->cl[i] = mu > 0 ? sqrt(e.cs * e.cs + 4. / 3 * mu / s->rho[i]) : e.cs;

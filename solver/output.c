@@ -20,7 +20,8 @@ static const char HEADER[] = "# "
                              "\tparticles\tm_gone[kg]\tE_gone[J]\tp_gone_x[kg*m/s]"
                              "\tp_gone_y[kg*m/s]\tp_gone_z[kg*m/s]\tL_gone_x[kg*m^2/s]"
                              "\tL_gone_y[kg*m^2/s]\tL_gone_z[kg*m^2/s]"
-                             "\th_at_min\th_at_max\n";
+                             "\th_at_min\th_at_max"
+                             "\tE_floor[J]\tat_energy_floor\tat_density_floor\tat_pressure_floor\n";
 
 static void name_of(const char *dir, const char *name, char *path, size_t size)
 {
@@ -132,10 +133,10 @@ static void note_held(Output *o, const Sim *sim, int end, double held)
   o->most_held[end] = fmax(o->most_held[end], held);
 }
 
-int output_conserved(Output *o, Sim *sim, const SimStep *done, Err *err)
+int output_conserved(Output *o, Sim *sim, const SimStep *done, Sums *sums, Err *err)
 {
-  Sums s;
-  if (sim_sums(sim, &s, err)) return -1;
+  if (sim_sums(sim, sums, err)) return -1;
+  const Sums s = *sums;
   note_outside(o, sim, s.outside);
   fprintf(o->conserved, "%ld\t%.9g\t%.6g\t%s\t%lld\t%.12g\t%.12g\t%.12g\t%.12g", sim->step,
           sim->time, done ? done->dt : 0, done ? sim_limit_name(done->limit) : "start",
@@ -148,7 +149,9 @@ int output_conserved(Output *o, Sim *sim, const SimStep *done, Err *err)
   fprintf(o->conserved, "\t%ld\t%.15g\t%.12g", sim->s.n, sim->gone.mass, sim->gone.energy);
   for (int d = 0; d < 3; d++) fprintf(o->conserved, "\t%.12g", sim->gone.momentum[d]);
   for (int d = 0; d < 3; d++) fprintf(o->conserved, "\t%.12g", sim->gone.angular[d]);
-  fprintf(o->conserved, "\t%.0f\t%.0f\n", s.held[0], s.held[1]);
+  fprintf(o->conserved, "\t%.0f\t%.0f\t%.9g", s.held[0], s.held[1], s.lifted);
+  for (int d = 0; d < 3; d++) fprintf(o->conserved, "\t%.0f", s.at_floor[d]);
+  fputc('\n', o->conserved);
   for (int d = 0; d < 2; d++) note_held(o, sim, d, s.held[d]);
   if (fflush(o->conserved))
     return err_set(err, "cannot write '%s/conserved.tsv': %s", o->dir, strerror(errno));

@@ -44,10 +44,10 @@ int output_table(const Output *o, const char *name, const char *header, long ste
 /* output_due: the time of the next snapshot [s]. */
 double output_due(const Output *o);
 
-/* output_conserved: a line of sums; done is the step just made, or NULL at the start. Particles
- * outside their tables are counted, and said in the log when there are others than before; so are
- * the first with the smallest or largest h. */
-int output_conserved(Output *o, Sim *sim, const SimStep *done, Err *err);
+/* output_conserved: a line of sums, which it hands back; done is the step just made, or NULL at the
+ * start. Particles outside their tables are counted, and said in the log when there are others than
+ * before; so are the first with the smallest or largest h. */
+int output_conserved(Output *o, Sim *sim, const SimStep *done, Sums *sums, Err *err);
 
 /* output_snapshot: snap_NNNN.h5, and run.h5part anew. output_checkpoint: checkpoint.h5; when it is
  * whole, the one before becomes checkpoint_prev.h5. Both are begun only: the present state is

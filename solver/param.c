@@ -39,6 +39,7 @@ static const CfgRow top[] = {
   {"energy", CFG_CHOICE, AT(energy), "full|isentropic|frozen", "full", ANY,
    "energy equation: all work, compression only (frozen entropy), or none"},
   {"energy_floor", CFG_REAL, AT(energy_floor), "J/kg", "-1e300", ANY, "smallest specific internal energy"},
+  {"pressure_floor", CFG_REAL, AT(pressure_floor), "Pa", "-1e300", ANY, "smallest pressure"},
   {"outer_pressure", CFG_REAL, AT(outer_pressure), "Pa", "0", 0, 1e30, "pressure outside, on free surfaces; E + p V is kept, not E"},
 };
 static const CfgRow strength[] = {
@@ -154,6 +155,16 @@ static const CfgRow layer[] = {
   {"strength", CFG_REAL, AT(layer_strength), "1", "7", 0, 1e3,
    "damping rate at the face, in units of the wave speed over the width; from the inner side on it grows linearly"},
 };
+static const CfgRow watch[] = {
+  {"viscous_work", CFG_BOOL, AT(viscous_work), NULL, "false", ANY,
+   "add up the heat that viscosity makes of each particle (ViscousWork): shock heating"},
+};
+static const CfgRow guard[] = {
+  {"energy", CFG_REAL, AT(guard_energy), "1", "0", 0, 1e300,
+   "a run stops when its energy has drifted by more than this share of E_kinetic + |E_internal| + |E_potential|; 0: never"},
+  {"angular_momentum", CFG_REAL, AT(guard_angular), "1", "0", 0, 1e300, "the same of L, as a share of sum m |r x v|"},
+  {"momentum", CFG_REAL, AT(guard_momentum), "1", "0", 0, 1e300, "the same of p, as a share of sum m |v|"},
+};
 static const CfgRow output[] = {
   {"log_every", CFG_INT, AT(log_every), NULL, "10", 1, 1e9, "steps between lines of conserved.tsv"},
   {"checkpoint_every", CFG_REAL, AT(checkpoint_every), "s", "600", 0, 1e300, "wall-clock time between checkpoints; 0: after every step"},
@@ -220,6 +231,8 @@ static const Group groups[] = {GROUP("", top),
                                GROUP("layer", layer),
                                GROUP("sink", sink),
                                GROUP("escape", escape),
+                               GROUP("watch", watch),
+                               GROUP("guard", guard),
                                GROUP("output", output),
                                GROUP("analysis", analysis)};
 enum { GROUPS = sizeof groups / sizeof *groups };

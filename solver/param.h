@@ -21,7 +21,7 @@ enum { PARAM_POINTS = 32 };
 
 typedef struct {
   int integrator, kernel, precision, density, pressure, energy, strength, damage;
-  double energy_floor, density_floor, outer_pressure;
+  double energy_floor, density_floor, pressure_floor, outer_pressure;
   int gravity, gravity_every;
   double theta, G;
   double alpha, beta;
@@ -43,6 +43,8 @@ typedef struct {
   double low[3], high[3];
   double layer_low[3], layer_high[3], layer_strength;
   char wall[8][64]; /* each body: free, held, or X,Y,Z */
+  int viscous_work;
+  double guard_energy, guard_angular, guard_momentum;
   int log_every;
   double checkpoint_every;
   double analysis_every, analysis_link, analysis_theta, analysis_virial, analysis_converged,

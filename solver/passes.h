@@ -304,6 +304,21 @@ HD void passes_damp(const State *s, const Step *k, long i, double *acc)
   for (int d = 0; d < 3; d++) acc[d] -= k->damping * (k->damping_radial ? f * r[d] : v[d]);
 }
 
+/* passes_viscous: what of du/dt is not local work: viscosity, mostly [W/kg]. */
+HD double passes_viscous(const State *s, const Step *k, long i, int solid)
+{
+  return s->du[i] + passes_outer(s, k, i, s->rho[i]) -
+         passes_work(s, i, s->p[i], passes_own_stress(s, i, solid), s->rho[i], solid);
+}
+
+/* passes_lift: the floor of the energy, and what it adds to an energy u. */
+HD void passes_lift(const State *s, const Step *k, long i, double u)
+{
+  if (!(u < k->energy_floor)) return;
+  s->u[i] = k->energy_floor;
+  if (s->lifted) s->lifted[i] += k->energy_floor - u;
+}
+
 /* finish: after loop B and gravity: closes the kick and the energy, keeps the rates for the next
  * step: du, and what of it is not local work (viscosity, mostly), so that the next prediction of
  * the energy is as du and stays of second order. h follows with the divergence of this step only
@@ -321,11 +336,13 @@ HD void pass_finish(const State *s, const Step *k, long i)
   if (k->energy == 0 && k->outer > 0) s->u[i] += k->dt * passes_outer(s, k, i, s->rhoa[i]);
   if (k->deposit.rate != 0) s->u[i] += passes_deposit(s, k, i);
   if (k->energy == 1) s->u[i] = s->ue[i];
-  if (s->u[i] < k->energy_floor) s->u[i] = k->energy_floor;
+  if (s->shock && k->energy == 0) s->shock[i] += half * s->dqdt[i];
+  passes_lift(s, k, i, s->u[i]);
   s->dudt[i] = s->du[i];
-  s->dqdt[i] = s->du[i] + passes_outer(s, k, i, s->rho[i]) -
-               passes_work(s, i, s->p[i], passes_own_stress(s, i, mu > 0), s->rho[i], mu > 0);
+  s->dqdt[i] = passes_viscous(s, k, i, mu > 0);
+  if (s->shock && k->energy == 0) s->shock[i] += half * s->dqdt[i];
   if (s->p[i] > s->pmax[i]) s->pmax[i] = s->p[i];
+  if (s->Tmax && s->T[i] > s->Tmax[i]) s->Tmax[i] = s->T[i];
   if (k->smoothing && k->dt > 0)
     s->h[i] = passes_follow(s, k, i, s->ha[i] * s->ha[i] / s->h[i], k->dt);
 }
@@ -422,6 +439,7 @@ HD void pass_combine(const State *s, const Step *k, long i)
   for (int d = 0; d < 6; d++) s->s[6 * i + d] = PASSES_SUM(s, 6 * i + d);
   s->rho[i] = PASSES_SUM(rho, i);
   s->u[i] = PASSES_SUM(u, i);
+  s->ue[i] = s->u[i]; /* what settle, if this is kept, books */
   if (s->u[i] < k->energy_floor) s->u[i] = k->energy_floor;
   h = PASSES_SUM(h, i);
   s->h[i] = h < k->h_min ? k->h_min : h > k->h_max ? k->h_max : h;
@@ -451,6 +469,9 @@ HD void pass_settle(const State *s, const Step *k, long i)
   const int solid = k->strength && s->material[s->mat[i]].mu > 0;
   double h = s->h[i] * passes_crowd(s, k, i), alpha = matter_distention(s, i);
   s->h[i] = h < k->h_min ? k->h_min : h > k->h_max ? k->h_max : h;
+  passes_lift(s, k, i, s->ue[i]);
+  if (s->shock && k->energy == 0)
+    s->shock[i] += 0.5 * k->dt * (s->dqdt[i] + passes_viscous(s, k, i, solid));
   matter_eos(s, i, s->u[i], k->strength);
   if (s->rare && s->alpha) matter_compact(s, i, alpha, solid, k->damage);
   if (s->rare && s->alpha) s->dalpha[i] = k->dt > 0 ? (s->alpha[i] - alpha) / k->dt : 0;

@@ -8,12 +8,25 @@
 #include "backend.h"
 #include "limits.h"
 
-enum { REDUCE_SUMS = 20 };
+enum { REDUCE_SUMS = 24 };
 
 /* Sums over all particles, as Sums has them. */
 typedef struct {
   double v[REDUCE_SUMS];
 } ReduceSums;
+
+/* reduce_add_floors: what the floors have done to i: energy, and where it is at one. */
+HD void reduce_add_floors(double v[4], const State *s, long i)
+{
+  const double h = s->h[i], least = s->floors.lone * s->m[i] /
+                                    (s->dimension == 3   ? h * h * h
+                                     : s->dimension == 2 ? h * h
+                                                         : h);
+  if (s->lifted) v[0] += s->m[i] * s->lifted[i];
+  v[1] += s->u[i] <= s->floors.u;
+  v[2] += s->rho[i] <= 1.01 * least;
+  v[3] += s->floors.pressure && s->p[i] <= s->floors.p;
+}
 
 HD void reduce_add_sums(ReduceSums *o, const State *s, long i)
 {
@@ -32,6 +45,7 @@ HD void reduce_add_sums(ReduceSums *o, const State *s, long i)
                                     s->rho[i] * (s->alpha ? s->alpha[i] : 1), s->u[i]);
     for (int d = 0; d < 3; d++) o->v[15 + d] += outside >> d & 1;
   }
+  reduce_add_floors(o->v + 20, s, i);
 }
 
 HD void reduce_merge_sums(ReduceSums *a, const ReduceSums *b)
@@ -47,6 +61,8 @@ HD void reduce_sums(const ReduceSums *t, Sums *out)
     out->momentum[d] = v[4 + d], out->angular[d] = v[7 + d], out->outside[d] = v[15 + d];
     out->centre[d] = v[0] > 0 ? v[10 + d] / v[0] : 0;
   }
+  out->lifted = v[20];
+  for (int d = 0; d < 3; d++) out->at_floor[d] = v[21 + d];
   out->scale_momentum = v[13], out->scale_angular = v[14];
   out->held[0] = v[18], out->held[1] = v[19];
 }

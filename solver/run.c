@@ -8,6 +8,7 @@
 #include "../lib/unit.h"
 #include "analysis.h"
 #include "conflict.h"
+#include "guard.h"
 #include "output.h"
 #include "profile.h"
 #include "run.h"
@@ -33,6 +34,7 @@ typedef struct {
   Analysis analysis;
   Parts *parts;
   const RunOptions *o;
+  Guard guard;
   double began, saved; /* wall clock: start, last checkpoint */
   long first_step;
   Progress bar;
@@ -55,6 +57,7 @@ static int analyse(Run *r, Err *err)
 
 static int fresh(Run *r, const Param *par, Err *err)
 {
+  Sums sums;
   if (part_history(r->parts, r->o->command, err) || param_record(par, r->parts, err)) return -1;
   if (part_set_number(r->parts, "run", "StartTime", r->parts->time, err)) return -1;
   if (sim_open(&r->sim, par, r->parts, r->o->device, err)) return -1;
@@ -67,7 +70,9 @@ static int fresh(Run *r, const Param *par, Err *err)
   output_log(&r->out, "%s %ld particles, %dD, %d material(s), %s on %s", r->o->command, r->parts->n,
              r->parts->dimension, r->parts->materials, integrator_of(par->integrator)->about,
              r->sim.about);
-  if (output_conserved(&r->out, &r->sim, NULL, err) || analyse(r, err)) return -1;
+  if (output_conserved(&r->out, &r->sim, NULL, &sums, err) ||
+      guard_start(&r->guard, &sums, r->parts, err) || analyse(r, err))
+    return -1;
   return output_snapshot(&r->out, &r->sim, r->parts, err);
 }
 
@@ -83,7 +88,9 @@ static int same_run(const Parts *checkpoint, const Param *par, Parts *input, Err
                    checkpoint->n, input->n);
   for (int i = 0; i < input->parameters; i++) {
     const char *line = input->parameter[i];
-    if (strncmp(line, "output.", 7) == 0 || strncmp(line, "analysis.", 9) == 0) continue;
+    if (strncmp(line, "output.", 7) == 0 || strncmp(line, "analysis.", 9) == 0 ||
+        strncmp(line, "guard.", 6) == 0)
+      continue;
     if (i >= checkpoint->parameters || strcmp(line, checkpoint->parameter[i]) != 0)
       return err_set(err, "the checkpoint was made with another '%.*s': it belongs to another run",
                      (int)strcspn(line, "\t"), line);
@@ -96,6 +103,7 @@ static int resume(Run *r, const Param *par, Parts *checkpoint, Err *err)
   double start = part_number(checkpoint, "run", "StartTime");
   if (same_run(checkpoint, par, r->parts, err)) return -1;
   r->parts = checkpoint;
+  if (guard_resume(&r->guard, checkpoint, err)) return -1;
   if (sim_restart(&r->sim, par, checkpoint, r->o->device, err)) return -1;
   r->sim.profile = r->o->profile;
   if (output_claim(&r->out, r->o->dir, err)) return -1;
@@ -142,6 +150,17 @@ static int let_leave(Run *r, Err *err)
   return 0;
 }
 
+/* A line of sums; a run that has lost too much ends here, with a checkpoint to look at. */
+static int conserve(Run *r, const SimStep *done, Err *err)
+{
+  Sums sums;
+  Err late;
+  if (output_conserved(&r->out, &r->sim, done, &sums, err)) return -1;
+  if (!guard_check(&r->guard, &sums, &r->sim, err)) return 0;
+  if (save(r, &late) || output_wait(&r->out, &late)) err_warn("%s", late.text);
+  return -1;
+}
+
 /* After each step: lines, snapshots, checkpoints. Returns 1 to go on, 0 when done, 3 to stop, -1 on
  * error. */
 static int look_around(Run *r, const SimStep *done, Err *err)
@@ -151,7 +170,7 @@ static int look_around(Run *r, const SimStep *done, Err *err)
   if (output_look(&r->out, err) || let_leave(r, err) || analyse(r, err)) return -1;
   converged = analysis_converged(&r->analysis, &r->sim.par);
   if (due || converged || r->sim.step % r->sim.par.log_every == 0)
-    if (output_conserved(&r->out, &r->sim, done, err)) return -1;
+    if (conserve(r, done, err)) return -1;
   if ((due || converged) && output_snapshot(&r->out, &r->sim, r->parts, err)) return -1;
   if (converged && r->sim.time < r->o->end)
     output_log(&r->out, "the bound masses have converged at step %ld, t = %.9g s", r->sim.step,

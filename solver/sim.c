@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Opening, advancing and storing a simulation, whatever the backend and the integrator. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include "../lib/material.h"
@@ -138,6 +139,7 @@ static int bulk_check(const Sim *sim, const Parts *p, long i, Err *err)
 static int hand_over(Sim *sim, const Parts *p, Err *err)
 {
   Parts whole = *p;
+  const Step k = sim_step(sim, 0);
   size_t n = (size_t)p->n;
   double *T = sim->heated ? calloc(n + 1, sizeof *T) : NULL;
   double *alpha = sim->porous ? calloc(n + 1, sizeof *alpha) : NULL;
@@ -155,6 +157,8 @@ static int hand_over(Sim *sim, const Parts *p, Err *err)
   bad = bad || sim->b->open(sim, &whole, err);
   free(T), free(alpha);
   memcpy(sim->s.force, sim->par.force, sizeof sim->s.force);
+  sim->s.floors = (Floors){sim->par.pressure_floor > -1e300, sim->par.pressure_floor,
+                           sim->par.energy_floor, k.density_floor * k.self};
   return bad ? -1 : 0;
 }
 
@@ -214,14 +218,21 @@ static int restart_outer(Sim *sim, const Parts *p, Err *err)
 
 static const char memory[] = "old_x old_v old_rho old_u old_s old_crack old_h";
 
+/* What files hold of this run besides. */
+static const char *also_stored(const Sim *sim, char text[64])
+{
+  snprintf(text, 64, "%s%s%s%s", sim->porous ? "alpha dalpha " : "", sim->heated ? "T Tmax " : "",
+           sim->par.viscous_work ? "shock " : "", sim->par.energy_floor > -1e300 ? "lifted" : "");
+  return text;
+}
+
 int sim_restart(Sim *sim, const Param *par, const Parts *p, const char *device, Err *err)
 {
+  char also[64];
   if (open_common(sim, par, p, device, err)) return sim_close(sim), -1;
   if (part_need(p, "a dudt dqdt divv p cs s nact signal dcrack nngb", "checkpoint", err))
     return sim_close(sim), -1;
-  if ((sim->porous && part_need(p, "alpha dalpha", "checkpoint", err)) ||
-      (sim->heated && part_need(p, "T", "checkpoint", err)))
-    return sim_close(sim), -1;
+  if (part_need(p, also_stored(sim, also), "checkpoint", err)) return sim_close(sim), -1;
   sim->par.h_min = part_number(p, "run", "SmoothingMin"),
   sim->par.h_max = part_number(p, "run", "SmoothingMax");
   sim->dt = part_number(p, "run", "NextStep");
@@ -350,9 +361,10 @@ int sim_sums(Sim *sim, Sums *out, Err *err)
 int sim_send(Sim *sim, Parts *p, Err *err)
 {
   Limits l;
+  char also[64];
   if (limits_of(sim, &l, err) || part_add(p, stored, err) ||
       (sim->par.gravity_every > 1 && part_add(p, "pull", err)) ||
-      (sim->porous && part_add(p, "alpha dalpha", err)) || (sim->heated && part_add(p, "T", err)) ||
+      part_add(p, also_stored(sim, also), err) ||
       (sim->memory &&
        (part_add(p, memory, err) || part_set_number(p, "run", "LastStep", sim->dt_before, err))) ||
       points_store(sim, p, err) || leave_store(sim, p, err) || sim->b->store(sim, p, err))

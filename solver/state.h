@@ -47,17 +47,25 @@ typedef struct {
 #undef SAVED_MEMBER
 } Saved;
 
+/* The least that a run lets a state have. */
+typedef struct {
+  int pressure; /* whether there is a floor of the pressure */
+  double p, u;  /* Pa, J/kg */
+  double lone;  /* of the density: in units of m/h^D */
+} Floors;
+
 typedef struct {
   long n;         /* particles */
   long all, room; /* and their images behind them (x, y, h, ha, m, id); rows there is room for */
-  Image *image;   /* [room - n]; NULL: there are none */
+  Image *image;   /* [room]; NULL: there are none */
   Bounds bounds;
   int dimension;
   double h_min, h_max;      /* range of h [m]; 0, INFINITY: h does not change */
   int rare;                 /* any material has laws that few runs need (material_rare) */
   const Material *material; /* [materials], indexed by mat */
   const double *flaw;       /* thresholds of all particles, ascending within one */
-  double force[3];          /* constant body force [m/s^2] */
+  Floors floors;
+  double force[3]; /* constant body force [m/s^2] */
 #define STATE_MEMBER(TYPE, MEMBER, ...) TYPE *MEMBER;
   ALL_FIELDS(STATE_MEMBER)
   MOVED_FIELDS(STATE_MEMBER)

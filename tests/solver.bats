@@ -37,7 +37,7 @@ like_whole() {
   cd "$BATS_FILE_TMPDIR/whole/run"
   [ "$(ls snap_*.h5 | wc -l)" = 11 ]
   [ "$(head -c 6 conserved.tsv)" = '# step' ]
-  awk -F'\t' 'NR > 1 && (NF != 32 || $1 != NR - 2) {exit 1}' conserved.tsv # every step once
+  awk -F'\t' 'NR > 1 && (NF != 36 || $1 != NR - 2) {exit 1}' conserved.tsv # every step once
   true_that 'near(b - a, 3000, 1e-12)' a="$(number snap_0000.h5 /Header/Time)" b="$(number snap_0010.h5 /Header/Time)"
   h5dump -a /Step#10/TimeValue run.h5part | grep -q '(0)'
   h5dump -d /Parameters/Value snap_0003.h5 >/dev/null || h5ls snap_0003.h5/Parameters >/dev/null
@@ -254,4 +254,19 @@ CFG
   awk -F'\t' 'NR == 2 {m = $18} NR > 1 && ($18 + $23 - m) ^ 2 > (1e-12 * m) ^ 2 {exit 1}' whole/conserved.tsv
   run solver -o other --end +200s --set escape.from=origin ../s.h5
   [ "$status" = 1 ] && [[ "$output" = *'escape.from = origin has no effect: escape.distance = 0' ]]
+}
+
+@test "a guard stops a run that has drifted, with a checkpoint to go on from" {
+  run go --set guard.angular_momentum=1e-13
+  [ "$status" = 1 ]
+  [[ "$output" == *"angular momentum has drifted by "*"more than guard.angular_momentum = 1e-13, at step "*"checkpoint is 'run/checkpoint.h5'"* ]]
+  grep -q '^failed: angular momentum has drifted' run/run.log
+  n=$(tail -1 run/conserved.tsv | cut -f 1)
+  run go --restart --set guard.angular_momentum=1e-13
+  [ "$status" = 1 ]
+  go --restart --set guard.angular_momentum=0.1 --set guard.momentum=0.1
+  tail -1 run/conserved.tsv | awk -F'\t' -v n="$n" '{ exit !($1 > n && $2 > 2000) }'
+  run go -o other --set guard.energy=0.1 --set walls.body1=held
+  [ "$status" = 1 ]
+  [[ "$output" == *"guard.energy = 0.1 cannot go with walls or a layer: they give and take energy"* ]]
 }

@@ -23,8 +23,7 @@ static int reserve(Sim *sim, long all, Err *err)
   if (more(&s->x, room, 3 * sizeof *s->x) || more(&s->y, room, 3 * sizeof *s->y) ||
       more(&s->h, room, sizeof *s->h) || more(&s->ha, room, sizeof *s->ha) ||
       more(&s->m, room, sizeof *s->m) || more(&s->id, room, sizeof *s->id) ||
-      more(&s->image, room - (size_t)s->n, sizeof *s->image) ||
-      more(&c->order, room + 1, sizeof *c->order) ||
+      more(&s->image, room, sizeof *s->image) || more(&c->order, room + 1, sizeof *c->order) ||
       more(&c->record, room + 1, CPU_RECORD * sizeof *c->record))
     return err_set(err, "not enough memory for %ld images of particles", all - s->n);
   s->room = (long)room;

@@ -12,7 +12,7 @@ enum { THREADS = 256, SPARE = 1024 };
 
 struct CudaImages {
   unsigned long long *reach; /* BoundsReach, as bits: not negative, so they are in order */
-  Image *found;              /* [room - n], before the sort */
+  Image *found;              /* [room], before the sort */
   void *scan;
   size_t scan_bytes;
 };
@@ -185,14 +185,14 @@ static size_t scan_bytes(Sim *sim)
 
 size_t cuda_images_bytes(Sim *sim)
 {
-  const size_t images = (size_t)(sim->s.room - sim->s.n);
+  const size_t images = (size_t)sim->s.room;
   return sim->s.bounds.on ? 2 * images * sizeof(Image) + scan_bytes(sim) + sizeof(BoundsReach) : 0;
 }
 
 int cuda_images_open(Sim *sim, Err *err)
 {
   Cuda *c = cuda_of(sim);
-  const size_t bytes = (size_t)(sim->s.room - sim->s.n) * sizeof(Image);
+  const size_t bytes = (size_t)sim->s.room * sizeof(Image);
   if (!sim->s.bounds.on) return 0;
   if (!(c->images = (struct CudaImages *)calloc(1, sizeof *c->images)))
     return err_set(err, "not enough memory");
