@@ -35,7 +35,7 @@ recipe_of = $(or $(recipe.$(call part,$1,1)),$(error no recipe '$(call part,$1,1
 number_of = $(or $(patsubst n%,%,$(filter n%,$(call part,$1,2))),$(error body '$1' is not RECIPE-nN-sSEED[-DENSITY]))
 seed_of = $(or $(patsubst s%,%,$(filter s%,$(call part,$1,3))),$(error body '$1' is not RECIPE-nN-sSEED[-DENSITY]))
 placed = $(call recipe_of,$1) -n $(call number_of,$1) --rotate $(call seed_of,$1)
-relaxed = relax$(if $(call part,$1,4), --set density=$(call part,$1,4)) --proof 2tff$(RELAX:%= %)
+relaxed = relax$(if $(call part,$1,4), --set density=$(call part,$1,4)) --proof 2tff$(if $(strip $(RELAX)), $(strip $(RELAX)))
 made_by = $(placed)$(if $(filter mkshape,$(firstword $(recipe_of))), --seed $(seed_of), | $(relaxed))
 recipes = $(sort $(patsubst recipe.%,%,$(filter recipe.%,$(.VARIABLES))))
 
