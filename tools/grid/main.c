@@ -53,7 +53,8 @@ static const OptProgram program = {
     .min_inputs = 0,
     .max_inputs = 1};
 
-static const char *name[FIELDS_MOST], *text[FIELDS_MOST];
+static char *name[FIELDS_MOST];
+static const char *text[FIELDS_MOST];
 static int fields;
 
 /* What every reader takes for a name. */
@@ -187,9 +188,11 @@ int main(int argc, char **argv)
   if (!p) err_die("%s", err.text);
   Raster r = {.about = line ? line : program.name};
   place(&r, p, &how, file);
-  if (fill_raster(&r, p, &how, text, name, fields, file, &err) ||
+  if (fill_raster(&r, p, &how, text, (const char *const *)name, fields, file, &err) ||
       raster_write(&r, arg.out, arg.format, &err))
     err_die("%s", err.text);
-  part_free(p);
+  for (int k = 0; k < r.fields; k++) free(r.field[k].value);
+  for (int k = 0; k < fields; k++) free(name[k]);
+  free(r.field), free(line), part_free(p);
   return 0;
 }
