@@ -29,7 +29,7 @@ static const OptProgram PROGRAM = {
   "if(condition, a, b) ...), 'ice' for the number of a material. Whole vectors cannot be set, their components can. A bare number "
   "is SI. Ids of joined particles go past those that are there.",
   "mkshape -d 1 --shape rod --size 1m -l water -o rod.h5\n"
-  "alter --set 'Velocities.x=1mm/s*sin(360deg*Coordinates.x/1m)' -k 'Coordinates.x>0' rod.h5 > wave.h5", OPTS, 0, 1};
+  "alter --set 'Velocities.x=1mm/s*sin(6.28*Coordinates.x/1m)' -k 'Coordinates.x > 0' rod.h5 >wave.h5", OPTS, 0, 1};
 /* clang-format on */
 
 /* The array that "Velocities.x" stands for: first element, elements from one particle to the next.
