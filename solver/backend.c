@@ -49,6 +49,7 @@ int backend_idle(const Sim *sim, const char *member)
          (strcmp(member, "Tmax") == 0 && !sim->heated) ||
          (strcmp(member, "shock") == 0 && !sim->par.viscous_work) ||
          (strcmp(member, "lifted") == 0 && !(sim->par.energy_floor > -1e300)) ||
+         (strcmp(member, "pull0") == 0 && !(sim->par.gravity_tolerance > 0)) ||
          (strncmp(member, "old_", 4) == 0 && !sim->memory) ||
          ((strcmp(member, "alpha") == 0 || strcmp(member, "dalpha") == 0) && !sim->porous);
 }

@@ -88,6 +88,8 @@ struct backend {
   int (*limits)(Sim *sim, const Step *step, Limits *out, Err *err);
   int (*sums)(Sim *sim, Sums *out, Err *err);
   int (*bodies)(Sim *sim, Step *step, Err *err);
+  /* change: the largest change of pull between the last two evaluations, over its mean size. */
+  int (*change)(Sim *sim, double *relative, Err *err);
   int (*error)(Sim *sim, const Step *step, double *worst, Err *err);
 };
 
@@ -119,6 +121,9 @@ struct Sim {
    * the next, as planned, and so far; the length of these and for how long it has kicked [s] */
   int pull_due, outer_steps, outer;
   double outer_time, outer_kick;
+  /* gravity.tolerance: the time until the next evaluation; how much gravity changed between the
+   * last two, over its mean size, and in what time */
+  double outer_span, pull_change, pull_time;
   PointMasses points;
   Gone gone;         /* what has left */
   int late;          /* the laws of the late stage are in force (late.h) */

@@ -54,6 +54,7 @@ static inline int conflict_mirrors(const Param *p)
   U("density_floor", p->density != PARAM_CONTINUITY && p->density_floor <= 1, "density") \
   U("gravity.theta", p->gravity != PARAM_TREE, "gravity.method") \
   U("gravity.G", p->gravity == PARAM_NONE && !s->points.n, "gravity.method") \
+  U("gravity.tolerance", p->gravity_every == 1, "gravity.every") \
   U("gravity.every", p->gravity == PARAM_NONE, "gravity.method") \
   U("smoothing.neighbours", p->smoothing != PARAM_NEIGHBOURS && p->smoothing != PARAM_OVERCORRECTED, "smoothing.mode") \
   U("smoothing.fewest", p->smoothing != PARAM_OVERCORRECTED, "smoothing.mode") \

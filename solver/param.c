@@ -50,6 +50,8 @@ static const CfgRow gravity[] = {
   {"method", CFG_CHOICE, AT(gravity), "none|tree|direct", "tree", ANY, "self-gravity: Barnes-Hut with quadrupoles, or direct sum"},
   {"theta", CFG_REAL, AT(theta), "1", "0.7", 0, 1.5, "opening angle: node edge over smallest distance"},
   {"G", CFG_REAL, AT(G), "m^3/kg/s^2", "6.67430e-11", 0, 1e30, "constant of gravity (CODATA 2018); 1 in code units"},
+  {"tolerance", CFG_REAL, AT(gravity_tolerance), "1", "0", 0, 1,
+   "gravity anew when that of some particle will have changed by this part of the mean of all, at the latest after `every` steps; 0: then"},
   {"every", CFG_INT, AT(gravity_every), NULL, "1", 1, 1000,
    "steps between evaluations of gravity, which then kicks for all of them; outputs and log lines evaluate it too (leapfrog)"},
 };

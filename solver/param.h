@@ -23,7 +23,7 @@ typedef struct {
   int integrator, kernel, precision, density, pressure, energy, strength, damage;
   double energy_floor, density_floor, pressure_floor, outer_pressure;
   int gravity, gravity_every;
-  double theta, G;
+  double theta, G, gravity_tolerance;
   double alpha, beta;
   double shear, bulk, shakura, aspect, compression;
   double force[3];

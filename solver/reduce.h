@@ -104,6 +104,34 @@ HD void reduce_add_limits(Limits *o, const State *s, const Step *k, long i, int 
   reduce_merge_limits(o, &one);
 }
 
+/* How gravity changed: the largest square of a change; sums of m and of m |pull|^2. */
+typedef struct {
+  double most, mass, square;
+} ReduceChange;
+
+HD void reduce_add_change(ReduceChange *o, const State *s, long i)
+{
+  double change = 0, square = 0;
+  for (int d = 0; d < 3; d++) {
+    const double a = s->pull[3 * i + d], b = a - s->pull0[3 * i + d];
+    change += b * b, square += a * a;
+  }
+  o->most = change > o->most ? change : o->most;
+  o->mass += s->m[i], o->square += s->m[i] * square;
+}
+
+HD void reduce_merge_change(ReduceChange *a, const ReduceChange *b)
+{
+  a->most = b->most > a->most ? b->most : a->most;
+  a->mass += b->mass, a->square += b->square;
+}
+
+/* reduce_change: over the mean size; 0 where nothing pulls. */
+HD double reduce_change(const ReduceChange *o)
+{
+  return o->square > 0 ? sqrt(o->most * o->mass / o->square) : 0;
+}
+
 /* reduce_body: the frame of damping that particle i belongs to. */
 HD int reduce_body(const State *s, long i)
 {

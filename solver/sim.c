@@ -210,7 +210,9 @@ static int restart_outer(Sim *sim, const Parts *p, Err *err)
   if (part_need(p, "pull", "checkpoint", err)) return -1;
   sim->outer_time = part_number(p, "run", "OuterTime");
   sim->outer_kick = part_number(p, "run", "OuterKick");
-  if (!(step >= 0 && steps >= 0 && sim->outer_time >= 0 && sim->outer_kick >= 0))
+  sim->outer_span = part_number(p, "run", "OuterSpan");
+  if (!(step >= 0 && steps >= 0 && sim->outer_time >= 0 && sim->outer_kick >= 0 &&
+        sim->outer_span >= 0))
     return err_set(err, "the checkpoint lacks the attributes of /Run for gravity.every");
   sim->outer = (int)step, sim->outer_steps = (int)steps;
   return 0;
@@ -311,9 +313,26 @@ static void plan_gravity(Sim *sim, double dt, double left)
   if (sim->outer == 0) {
     long log = p->log_every - sim->step % p->log_every;
     sim->outer_steps = log < p->gravity_every ? (int)log : p->gravity_every;
-    if (left < (p->gravity_every + 1) * dt) sim->outer_steps = 1;
+    if (p->gravity_tolerance > 0 && sim->outer_span < sim->outer_steps * dt)
+      sim->outer_steps = sim->outer_span > dt ? (int)(sim->outer_span / dt) : 1;
+    if (left < ((p->gravity_tolerance > 0 ? sim->outer_steps : p->gravity_every) + 1) * dt)
+      sim->outer_steps = 1;
   }
-  sim->pull_due = dt >= left || sim->outer + 1 >= sim->outer_steps;
+  sim->pull_due =
+      dt >= left || sim->outer + 1 >= sim->outer_steps ||
+      (p->gravity_tolerance > 0 && sim->outer_time + 2 * dt > fmax(sim->outer_span, dt));
+}
+
+/* After an evaluation of gravity and a step dt: how long the next change will take. As rates change
+ * on the way it aims at half the tolerance, and lets the time grow by half and a step at most. */
+static int plan_span(Sim *sim, double dt, Err *err)
+{
+  if (!(sim->par.gravity_tolerance > 0) || sim->outer > 0) return 0;
+  if (sim->b->change(sim, &sim->pull_change, err)) return -1;
+  sim->outer_span =
+      fmin(1.5 * sim->pull_time + dt,
+           0.5 * sim->pull_time * sim->par.gravity_tolerance / fmax(sim->pull_change, 1e-300));
+  return 0;
 }
 
 int sim_advance(Sim *sim, double until, SimStep *done, Err *err)
@@ -344,6 +363,7 @@ int sim_advance(Sim *sim, double until, SimStep *done, Err *err)
   if (in->step(sim, &dt, err)) return -1;
   fold(sim);
   if (dt < done->dt) done->limit = LIMITS + 1, done->id = -1;
+  if (plan_span(sim, dt, err)) return -1;
   done->dt = sim->dt_before = dt;
   sim->time = dt >= left ? until : sim->time + dt;
   sim->step++;
@@ -375,6 +395,7 @@ int sim_send(Sim *sim, Parts *p, Err *err)
       (part_set_number(p, "run", "OuterStep", sim->outer, err) ||
        part_set_number(p, "run", "OuterSteps", sim->outer_steps, err) ||
        part_set_number(p, "run", "OuterTime", sim->outer_time, err) ||
+       part_set_number(p, "run", "OuterSpan", sim->outer_span, err) ||
        part_set_number(p, "run", "OuterKick", sim->outer_kick, err)))
     return -1;
   return part_set_number(p, "run", "SmoothingMin", sim->par.h_min, err) |

@@ -30,6 +30,7 @@
   W(double,  cm,     6, "inverse moment matrix of loop A, what corrects the gradient") \
   W(double,  push,   1, "p/rho^2 [Pa m^6/kg^2], miscible: times m^2, product: p [Pa]; damage included") \
   W(double,  t,      9, "S C, damage included [Pa]") \
+  W(double,  pull0,  3, "gravity at the evaluation before (gravity.tolerance) [m/s^2]") \
   W(double,  cl,     1, "longitudinal wave speed [m/s]")
 /* clang-format on */
 

@@ -17,6 +17,8 @@ static const Case unused[] = {
      "gravity.theta = 0.5 has no effect: gravity.method = direct"},
     {"gravity.G=1", "gravity.method=none", "gravity.method=tree",
      "gravity.G = 1 has no effect: gravity.method = none"},
+    {"gravity.tolerance=0.1", "gravity.every=1", "gravity.every=2",
+     "gravity.tolerance = 0.1 has no effect: gravity.every = 1"},
     {"gravity.every=2", "gravity.method=none", "gravity.method=tree",
      "gravity.every = 2 has no effect: gravity.method = none"},
     {"smoothing.neighbours=60", "smoothing.mode=density", "smoothing.mode=neighbours",

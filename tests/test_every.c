@@ -81,9 +81,71 @@ static void energy_is_kept(void **state)
   assert_true(lost[0] < 5e-4 && lost[1] < 2e-3 && lost[2] < 1.5e-2);
 }
 
+/* gravity.tolerance: the largest change of gravity from one evaluation to the next, over its mean
+ * size, made here from what is stored; evaluations and steps. */
+static double by_tolerance(Parts *p, const char *tolerance, long *evaluations, long *steps)
+{
+  Param par = lab_param("gravity.G=0.2", "gravity.method=direct", "precision=double",
+                        "smoothing.mode=fixed", "viscosity.alpha=0", "viscosity.beta=0",
+                        "output.log_every=1000", "gravity.every=200", "step.cfl=0.02", NULL);
+  double worst = 0, *before = malloc(3 * (size_t)p->n * sizeof *before);
+  Sim sim;
+  Err err;
+  SimStep done;
+  lab_set(&par, tolerance);
+  lab_open(&sim, &par, p);
+  lab_store(&sim, p);
+  assert_non_null(before);
+  memcpy(before, p->pull, 3 * (size_t)p->n * sizeof *before);
+  for (*evaluations = *steps = 0; sim.time < 1.2; ++*steps) {
+    double most = 0, square = 0;
+    if (sim_advance(&sim, 1.2, &done, &err)) fail_msg("%s", err.text);
+    if (sim.outer > 0) continue;
+    lab_store(&sim, p);
+    for (long i = 0; i < p->n; i++) {
+      double change = 0;
+      for (int d = 0; d < 3; d++)
+        change += pow(p->pull[3 * i + d] - before[3 * i + d], 2),
+            square += pow(p->pull[3 * i + d], 2);
+      most = fmax(most, change);
+    }
+    most = sqrt(most / (square / (double)p->n)); /* equal masses */
+    if (*tolerance) assert_true(fabs(sim.pull_change - most) < 1e-12 + 1e-9 * most);
+    if (sim.outer_span > 0) worst = fmax(worst, most);
+    memcpy(before, p->pull, 3 * (size_t)p->n * sizeof *before);
+    ++*evaluations;
+  }
+  free(before);
+  sim_close(&sim);
+  return worst;
+}
+
+static void tolerance_is_kept(void **state)
+{
+  static const char *const tolerance[] = {"gravity.tolerance=0.1", "gravity.tolerance=0.02"};
+  Parts *exact = star(), *p[2];
+  long evaluations[2], steps;
+  double error[2], worst[2];
+  (void)state;
+  fall(exact, "gravity.every=1", "step.cfl=0.02", 1);
+  for (int k = 0; k < 2; k++) {
+    p[k] = star();
+    worst[k] = by_tolerance(p[k], tolerance[k], &evaluations[k], &steps);
+    error[k] = apart(p[k], exact);
+    print_message("%s: %ld evaluations in %ld steps, change %.3g, error %.1e\n", tolerance[k],
+                  evaluations[k], steps, worst[k], error[k]);
+    part_free(p[k]);
+  }
+  part_free(exact);
+  assert_true(worst[0] < .1 && worst[1] < .02);
+  assert_true(2 * evaluations[0] < evaluations[1] && 3 * evaluations[1] < steps);
+  assert_true(error[0] < .01 && error[1] < .2 * error[0]);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(second_order),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(tolerance_is_kept),
+                                     cmocka_unit_test(second_order),
                                      cmocka_unit_test(energy_is_kept)};
   omp_set_num_threads(1);
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -97,6 +97,7 @@ static const Case cases[] = {
     {"integrator=leapfrog", "density=continuity", "gravity.method=tree", "step.cfl=0.4"},
     {"integrator=leapfrog", "density=sum", "gravity.method=direct", "damping.rate=0.1"},
     {"integrator=leapfrog", "density=continuity", "gravity.method=tree", "gravity.every=7"},
+    {"integrator=leapfrog", "gravity.every=50", "output.log_every=1000", "gravity.tolerance=0.05"},
     {"integrator=leapfrog", "density=miscible", "gravity.method=tree", "precision=double"},
     {"integrator=leapfrog", "density=continuity", "gravity.method=none",
      "smoothing.mode=neighbours"},

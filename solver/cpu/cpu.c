@@ -216,6 +216,7 @@ static int pull(Sim *sim, Err *err)
   Cpu *c = sim->own;
   const State *s = &sim->s;
   GravityOptions o = {sim->par.theta, sim->par.G, sim->par.precision == PARAM_MIXED};
+  if (s->pull0) memcpy(s->pull0, s->pull, 3 * (size_t)s->n * sizeof *s->pull);
   if (sim->par.gravity == PARAM_DIRECT)
     return gravity_direct(s->n, s->x, s->m, s->h, o.G, s->pull, s->phi, err);
   if (gravity_tree(&c->tree, s->x, s->m, s->h, &o, s->pull, s->phi, err)) return -1;
@@ -299,5 +300,6 @@ static int cpu_cards(void) { return 1; }
 /* clang-format off */
 const struct backend backend_cpu = {
   "cpu", cpu_cards, cpu_open, cpu_close, cpu_store, cpu_fetch, cpu_copy, cpu_search, cpu_pass,
-  cpu_gradient, cpu_density, cpu_force, cpu_gravity, cpu_leaving, cpu_keep, cpu_points, cpu_limits, cpu_sums, cpu_bodies, cpu_error};
+  cpu_gradient, cpu_density, cpu_force, cpu_gravity, cpu_leaving, cpu_keep, cpu_points, cpu_limits, cpu_sums, cpu_bodies,
+  cpu_change, cpu_error};
 /* clang-format on */

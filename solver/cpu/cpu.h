@@ -34,6 +34,7 @@ int cpu_points(Sim *sim, const PointField *field, PointReaction *reaction, Err *
 int cpu_limits(Sim *sim, const Step *step, Limits *out, Err *err);
 int cpu_sums(Sim *sim, Sums *out, Err *err);
 int cpu_bodies(Sim *sim, Step *step, Err *err);
+int cpu_change(Sim *sim, double *relative, Err *err);
 int cpu_error(Sim *sim, const Step *step, double *worst, Err *err);
 
 #endif

@@ -91,3 +91,13 @@ int cpu_points(Sim *sim, const PointField *field, PointReaction *reaction, Err *
   free(part);
   return 0;
 }
+
+int cpu_change(Sim *sim, double *relative, Err *err)
+{
+  const State *s = &sim->s;
+  ReduceChange all = {0, 0, 0};
+  (void)err;
+  for (long i = 0; i < s->n; i++) reduce_add_change(&all, s, i);
+  *relative = reduce_change(&all);
+  return 0;
+}

@@ -179,5 +179,5 @@ static int timed_limits(Sim *sim, const Step *step, Limits *out, Err *err)
 extern "C" const struct backend backend_cuda = {
   "cuda", cuda_cards, cuda_open, cuda_close, cuda_store, cuda_fetch, cuda_copy, cuda_search, cuda_pass,
   timed_gradient, timed_density, timed_force, timed_gravity, cuda_leaving, cuda_keep, pull_and_reaction,
-  timed_limits, cuda_sums, cuda_bodies, cuda_error};
+  timed_limits, cuda_sums, cuda_bodies, cuda_change, cuda_error};
 /* clang-format on */

@@ -177,6 +177,7 @@ int cuda_limits(Sim *sim, const Step *step, Limits *out, Err *err);
 int cuda_sums(Sim *sim, Sums *out, Err *err);
 int cuda_bodies(Sim *sim, Step *step, Err *err);
 int cuda_reaction(Sim *sim, const PointField *field, PointReaction *reaction, Err *err);
+int cuda_change(Sim *sim, double *relative, Err *err);
 int cuda_error(Sim *sim, const Step *step, double *worst, Err *err);
 void cuda_reduce_close(Sim *sim);
 

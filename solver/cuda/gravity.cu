@@ -256,6 +256,9 @@ int cuda_gravity(Sim *sim, Err *err)
   const Walk w = walk_of(sim);
   const unsigned blocks = launch_blocks((size_t)w.n, DIRECT_BLOCK);
   if (method == PARAM_NONE) return 0;
+  if (sim->pull_due && sim->s.pull0)
+    CHECK(cudaMemcpyAsync(sim->s.pull0, sim->s.pull, 3 * (size_t)w.n * sizeof *sim->s.pull,
+                          cudaMemcpyDeviceToDevice, c->stream));
   if (walks) tree(sim, w, single);
   if (sim->pull_due && method == PARAM_DIRECT)
     LAUNCH(single ? direct_sum<float> : direct_sum<double>, blocks, DIRECT_BLOCK, 0, c->stream, w);

@@ -27,6 +27,7 @@ typedef struct {
   ReduceSpin spin[BODIES];
   Worst worst;
   PointReaction reaction[POINTS];
+  ReduceChange change;
 } Results;
 
 struct CudaReduce {
@@ -74,6 +75,10 @@ static __device__ void add(PointReaction *o, const Context &c, int, long i)
 {
   points_react(o, &c.point, c.s.m[i], c.s.x + 3 * i);
 }
+static __device__ void add(ReduceChange *o, const Context &c, int, long i)
+{
+  reduce_add_change(o, &c.s, i);
+}
 static __device__ void add(Worst *o, const Context &c, int, long i)
 {
   double e = reduce_error(&c.s, &c.k, i);
@@ -89,6 +94,7 @@ static __device__ void merge(ReduceSums *a, const ReduceSums *b) { reduce_merge_
 static __device__ void merge(ReduceMotion *a, const ReduceMotion *b) { reduce_merge_motion(a, b); }
 static __device__ void merge(ReduceSpin *a, const ReduceSpin *b) { reduce_merge_spin(a, b); }
 static __device__ void merge(PointReaction *a, const PointReaction *b) { points_merge(a, b); }
+static __device__ void merge(ReduceChange *a, const ReduceChange *b) { reduce_merge_change(a, b); }
 static __device__ void merge(Worst *a, const Worst *b)
 {
   a->worst = b->worst > a->worst ? b->worst : a->worst;
@@ -185,6 +191,15 @@ int cuda_bodies(Sim *sim, Step *step, Err *err)
     reduce_motion(&r->host->motion[b], step->centre[b], step->velocity[b]);
     reduce_spin(&r->host->spin[b], step->omega[b]);
   }
+  return 0;
+}
+
+int cuda_change(Sim *sim, double *relative, Err *err)
+{
+  struct CudaReduce *r = cuda_of(sim)->reduce;
+  reduce(sim, NULL, 1, &r->device->change);
+  if (fetch(sim, err)) return -1;
+  *relative = reduce_change(&r->host->change);
   return 0;
 }
 

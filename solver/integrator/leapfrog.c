@@ -6,7 +6,10 @@
  *
  * gravity.every = k: gravity is a kick of its own around k steps (impulse form; Tuckerman et al.
  * 1992, J. Chem. Phys. 97, 1990): it opens with k dt/2 and closes with what is left of the sum of
- * the steps, so that weights add up to the time whatever the steps become. */
+ * the steps, so that weights add up to the time whatever the steps become.
+ *
+ * gravity.tolerance: the number of steps is such that gravity changes by at most that much
+ * (sim.c). */
 #include <math.h>
 #include "../sim.h"
 
@@ -35,7 +38,7 @@ static double closing(Sim *sim, double dt)
   sim->outer++, sim->outer_time += dt;
   if (!sim->pull_due) return 0;
   const double weight = 2 * (sim->outer_time - sim->outer_kick) / dt;
-  sim->outer = 0, sim->outer_time = 0;
+  sim->outer = 0, sim->pull_time = sim->outer_time, sim->outer_time = 0;
   return weight;
 }
 
