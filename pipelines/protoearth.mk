@@ -45,7 +45,8 @@ $(to)/protoearth.png: $(call body,$(planet)) $(tables)
 
 # What was reached, and what must hold. `checked` is there when it holds.
 $(to)/report.txt: $(here)protoearth.awk $(here)bodies.awk $(tables) $(call body,$(planet))
-	@{ awk -f $< $(profile) $(tables) && awk -f $(here)bodies.awk $(call reports,$(forms)) || true; } > $@
+	@{ awk -f $< $(profile) $(tables) && awk -f $(here)bodies.awk $(call reports,$(planet)) && \
+	  awk -v judge=no -f $(here)bodies.awk $(call reports,$(planet)-sum $(planet)-miscible) || true; } > $@
 $(to)/checked: $(to)/report.txt
 	@rm -f $@
 	@cat $<
