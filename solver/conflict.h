@@ -25,6 +25,8 @@ static inline int conflict_mirrors(const Param *p)
   C("pressure_form", "density", p->pressure == PARAM_PRODUCT && p->density != PARAM_CONTINUITY, \
     "the product goes with the density by continuity") \
   C("step.max", "step.min", p->step_max > 0 && p->step_max <= p->step_min, "no step is left between the two") \
+  C("spin.axis", "spin.rate", p->spin_rate > 0 && p->spin_axis[0] == 0 && p->spin_axis[1] == 0 && p->spin_axis[2] == 0, \
+    "it is no direction") \
   C("heating.profile", "heating.radius", p->deposit_profile && p->deposit_radius == 0, "it needs a radius") \
   C("heating.begin", "heating.end", p->deposit_begin >= p->deposit_end, "no time is left between the two") \
   C("guard.energy", "energy", p->guard_energy > 0 && p->energy != PARAM_FULL, "energy is not kept then") \
@@ -89,6 +91,9 @@ static inline int conflict_mirrors(const Param *p)
   U("late.time", !(p->late_bulk > 0), "late.bulk_modulus") \
   U("late.poisson", !(p->late_bulk > 0), "late.bulk_modulus") \
   U("late.rho_min", !(p->late_bulk > 0), "late.bulk_modulus") \
+  U("spin.period", !(p->spin_rate > 0), "spin.rate") \
+  U("spin.axis", !(p->spin_rate > 0), "spin.rate") \
+  U("spin.axis", p->spin_period == 0, "spin.period") \
   U("damping.radial", !(p->damping > 0), "damping.rate") \
   U("analysis.method", !(p->analysis_every > 0), "analysis.every") \
   U("analysis.criterion", !(p->analysis_every > 0), "analysis.every") \

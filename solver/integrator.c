@@ -38,7 +38,7 @@ int integrator_stage(Sim *sim, Step *k, int slot, Err *err)
   double dt = k->dt;
   k->dt = 0;
   if (integrator_rates(sim, k, err)) return -1;
-  if (k->damping > 0) {
+  if (k->framed) {
     if (sim->b->bodies(sim, k, err)) return -1;
     sim->b->pass(sim, PASS_DAMP, k);
   }
@@ -72,7 +72,7 @@ int integrator_stages(Sim *sim, Step *k, const double (*weight)[3], int stages, 
 static void keep(Sim *sim)
 {
   Step k = sim_step(sim, 0);
-  k.energy = PARAM_FROZEN, k.damping = 0;
+  k.energy = PARAM_FROZEN, k.damping = k.spin_rate = 0;
   sim->b->pass(sim, PASS_FINISH, &k);
 }
 

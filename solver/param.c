@@ -117,6 +117,11 @@ static const CfgRow step[] = {
   {"max", CFG_REAL, AT(step_max), "s", "0", 0, 1e300, "largest step; 0: no such limit"},
   {"points", CFG_REAL, AT(step_points), "1", "0.03", 1e-6, 1, "of the least sqrt(r^3/(G m)) between two point masses"},
 };
+static const CfgRow spin[] = {
+  {"rate", CFG_REAL, AT(spin_rate), "1/s", "0", 0, 1e300, "torque on each body: d(omega)/dt = rate (omega_target - omega); 0: none"},
+  {"period", CFG_REAL, AT(spin_period), "s", "0", -1e300, 1e300, "of omega_target, negative against the axis; 0: no rotation"},
+  {"axis", CFG_VECTOR, AT(spin_axis), "1", "0,0,1", ANY, "direction of omega_target"},
+};
 static const CfgRow late[] = {
   {"time", CFG_REAL, AT(late_time), "s", "0", -1e300, 1e300, "simulated time from which the late stage lasts; 0 is the contact"},
   {"bulk_modulus", CFG_REAL, AT(late_bulk), "Pa", "0", 0, 1e30,
@@ -228,6 +233,7 @@ static const Group groups[] = {GROUP("", top),
                                GROUP("error", error),
                                GROUP("late", late),
                                GROUP("damping", damping),
+                               GROUP("spin", spin),
                                GROUP("boundary", boundary),
                                GROUP("walls", walls),
                                GROUP("layer", layer),

@@ -38,6 +38,7 @@ typedef struct {
   double late_time, late_bulk, late_poisson, late_rho_min;
   double error_position, error_velocity, error_density, error_energy, error_stress, error_damage;
   double damping;
+  double spin_rate, spin_period, spin_axis[3];
   int damping_radial;
   int faces[3];
   double low[3], high[3];

@@ -39,7 +39,8 @@ typedef struct {
   double few, many, width, dilation; /* overcorrected h: neighbours, largest |div v| [1/s] */
   double outer;                      /* pressure outside [Pa] */
   double damping;                    /* 1/s; 0: none */
-  int damping_radial;
+  int damping_radial, framed;        /* framed: the frames of the bodies are needed */
+  double spin_rate, spin[3];         /* 1/s; rad/s: the rotation that bodies are brought to */
   double centre[BODIES][3], velocity[BODIES][3],
       omega[BODIES][3]; /* frames that are damped towards */
   struct {
@@ -319,6 +320,20 @@ HD void passes_lift(const State *s, const Step *k, long i, double u)
   if (s->lifted) s->lifted[i] += k->energy_floor - u;
 }
 
+/* passes_spin: rate (W - omega) x r about the centre of the particle's body: a torque I (W -
+ * omega) rate and no force, so omega' = rate (W - omega). */
+HD void passes_spin(const State *s, const Step *k, long i, double *acc)
+{
+  const int b = s->body[i] >= 0 && s->body[i] < BODIES ? s->body[i] : 0;
+  double r[3], w[3];
+  for (int d = 0; d < 3; d++) {
+    r[d] = s->x[3 * i + d] - k->centre[b][d];
+    w[d] = k->spin_rate * (k->spin[d] - k->omega[b][d]);
+  }
+  acc[0] += w[1] * r[2] - w[2] * r[1], acc[1] += w[2] * r[0] - w[0] * r[2];
+  acc[2] += w[0] * r[1] - w[1] * r[0];
+}
+
 /* finish: after loop B and gravity: closes the kick and the energy, keeps the rates for the next
  * step: du, and what of it is not local work (viscosity, mostly), so that the next prediction of
  * the energy is as du and stays of second order. h follows with the divergence of this step only
@@ -328,6 +343,7 @@ HD void pass_finish(const State *s, const Step *k, long i)
 {
   double half = 0.5 * k->dt, mu = k->strength ? s->material[s->mat[i]].mu : 0;
   if (k->damping > 0) passes_damp(s, k, i, &s->acc[3 * i]);
+  if (k->spin_rate > 0) passes_spin(s, k, i, &s->acc[3 * i]);
   for (int d = 0; d < 3; d++) {
     s->a[3 * i + d] = s->acc[3 * i + d];
     s->v[3 * i + d] += passes_kick(s, k, 3 * i + d) * half;
@@ -453,8 +469,12 @@ HD void pass_combine(const State *s, const Step *k, long i)
   }
 }
 
-/* damp: the damping of an evaluation of rk2-adaptive. */
-HD void pass_damp(const State *s, const Step *k, long i) { passes_damp(s, k, i, &s->acc[3 * i]); }
+/* damp: damping and spin of an evaluation of rk2-adaptive and the like. */
+HD void pass_damp(const State *s, const Step *k, long i)
+{
+  if (k->damping > 0) passes_damp(s, k, i, &s->acc[3 * i]);
+  if (k->spin_rate > 0) passes_spin(s, k, i, &s->acc[3 * i]);
+}
 
 /* body_force: adds the constant body force to an evaluation's accelerations. */
 HD void pass_body_force(const State *s, const Step *k, long i)

@@ -29,6 +29,15 @@ static Deposit deposit_of(const Sim *sim, double dt)
   return q;
 }
 
+/* The rotation that bodies are brought to. */
+static void spin_of(const Param *p, Step *k)
+{
+  const double *a = p->spin_axis, length = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+  k->spin_rate = p->spin_rate;
+  for (int d = 0; d < 3 && p->spin_period != 0; d++)
+    k->spin[d] = 2 * 3.14159265358979323846 / p->spin_period * a[d] / length;
+}
+
 Step sim_step(const Sim *sim, double dt)
 {
   const Param *p = &sim->par;
@@ -56,6 +65,8 @@ Step sim_step(const Sim *sim, double dt)
   k.error.rho = p->error_density / p->step_error, k.error.u = p->error_energy / p->step_error;
   k.error.s = p->error_stress / p->step_error, k.error.crack = p->error_damage / p->step_error;
   k.damping = p->damping, k.damping_radial = p->damping_radial;
+  k.framed = p->damping > 0 || p->spin_rate > 0;
+  spin_of(p, &k);
   k.viscous = sim->viscous;
   k.fluid = (Fluid){p->shear, p->bulk, p->shakura, p->aspect, p->compression};
   k.deposit = deposit_of(sim, dt);
@@ -90,9 +101,9 @@ static int open_common(Sim *sim, const Param *par, const Parts *p, const char *d
   memset(sim, 0, sizeof *sim);
   if (part_need(p, SIM_FIELDS, "input", err) || part_check(p, "input", err)) return -1;
   if (!(sim->b = backend_find(device, &sim->card, err))) return -1;
-  for (long i = 0; i < p->n && par->damping > 0; i++)
+  for (long i = 0; i < p->n && (par->damping > 0 || par->spin_rate > 0); i++)
     if (p->body[i] < 0 || p->body[i] >= BODIES)
-      return err_set(err, "particle %lld is of body %d: damping knows bodies 0 to %d",
+      return err_set(err, "particle %lld is of body %d: damping and spin know bodies 0 to %d",
                      (long long)p->id[i], (int)p->body[i], BODIES - 1);
   sim->par = *par;
   sim->pull_due = 1;

@@ -265,6 +265,7 @@ static Step any_step(const Sim *sim, uint64_t seed)
   k.deposit = (Deposit){seed % 3, {.1, .2, .3}, .7, seed % 2, (int)(seed % 4)};
   k.damping = rng_uniform(1, seed, 6) < 0.5 ? 0.3 : 0, k.damping_radial = seed % 2;
   k.slot = (int)(4 * rng_uniform(1, seed, 7));
+  k.spin_rate = seed % 3 ? 0.2 : 0, k.spin[1] = 0.4;
   for (int w = 0; w < 3; w++) k.weight[w] = rng_uniform(1, seed, 8 + (uint32_t)w);
   for (int b = 0; b < BODIES; b++)
     for (int d = 0; d < 3; d++)

@@ -95,6 +95,39 @@ static void damping(void **state)
   }
 }
 
+/* Two balls of dust that turn are brought to another rotation: omega relaxes to it as exp(-rate t);
+ * neither gets a push. */
+static void spin_up(void **state)
+{
+  const double target = 2 * LAB_PI / 100, rate = 2;
+  (void)state;
+  for (int k = 0; k < 2; k++) {
+    Parts *p = balls(2, GAS);
+    Param par =
+        lab_param("gravity.method=none", "viscosity.alpha=0", "viscosity.beta=0", "spin.rate=2",
+                  "spin.period=100", "spin.axis=2,0,0", "step.max=0.02", integrators[k], NULL);
+    Sim sim;
+    Sums s;
+    for (long i = 0; i < p->n; i++)
+      p->v[3 * i] = .1, p->v[3 * i + 1] = -.01 * p->x[3 * i + 2],
+               p->v[3 * i + 2] = .01 * p->x[3 * i + 1];
+    lab_open(&sim, &par, p);
+    lab_run(&sim, 1);
+    lab_sums(&sim, &s), lab_store(&sim, p);
+    assert_true(fabs(s.momentum[0] / .2 - 1) < 1e-12 && fabs(s.momentum[1]) < 1e-13);
+    for (int b = 0; b < 2; b++) {
+      double l = 0, inertia = 0, want = target + (.01 - target) * exp(-rate);
+      for (long i = 0; i < p->n; i++) {
+        const double *x = &p->x[3 * i], *v = &p->v[3 * i];
+        if (p->body[i] == b) l += x[1] * v[2] - x[2] * v[1], inertia += x[1] * x[1] + x[2] * x[2];
+      }
+      print_message("%s: omega %.6f (%.6f)\n", integrators[k], l / inertia, want);
+      assert_true(fabs(l / inertia / want - 1) < 5e-3);
+    }
+    sim_close(&sim), part_free(p);
+  }
+}
+
 /* Two bodies fall towards each other as if they were not damped. */
 static void fall(void **state)
 {
@@ -304,9 +337,9 @@ static void yield(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(damping),    cmocka_unit_test(fall),      cmocka_unit_test(too_many_bodies),
-      cmocka_unit_test(isentropic), cmocka_unit_test(smoothing), cmocka_unit_test(interfaces),
-      cmocka_unit_test(yield)};
+      cmocka_unit_test(damping),         cmocka_unit_test(spin_up),    cmocka_unit_test(fall),
+      cmocka_unit_test(too_many_bodies), cmocka_unit_test(isentropic), cmocka_unit_test(smoothing),
+      cmocka_unit_test(interfaces),      cmocka_unit_test(yield)};
   omp_set_num_threads(1);
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

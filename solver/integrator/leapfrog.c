@@ -17,7 +17,7 @@ static int start(Sim *sim, Err *err)
 {
   Step k = sim_step(sim, 0);
   if (integrator_rates(sim, &k, err)) return -1;
-  if (k.damping > 0 && sim->b->bodies(sim, &k, err)) return -1;
+  if (k.framed && sim->b->bodies(sim, &k, err)) return -1;
   sim->b->pass(sim, PASS_FINISH, &k);
   sim->dt = INFINITY;
   return 0;
@@ -56,7 +56,7 @@ static int step(Sim *sim, double *dt, Err *err)
   sim->b->pass(sim, PASS_ADVANCE, &k);
   sim->b->force(sim);
   if (integrator_gravity(sim, err)) return -1;
-  if (k.damping > 0 && sim->b->bodies(sim, &k, err)) return -1;
+  if (k.framed && sim->b->bodies(sim, &k, err)) return -1;
   sim->b->pass(sim, PASS_FINISH, &k);
   return 0;
 }
