@@ -80,12 +80,12 @@ differ() { if cmp -s "$1" "$2"; then return 1; fi; }
 }
 
 @test "only the particles that are selected" {
-  render --size 320x200 -e 3000km -C body:0 -o 1.png two.h5
-  render --size 320x200 -e 3000km -C body:0 -S 'BodyID == 0' -o 2.png two.h5
+  render --size 320x200 -e 8000km -C body:0 -o 1.png two.h5
+  render --size 320x200 -e 8000km -C body:0 -S 'BodyID == 0' -o 2.png two.h5
   differ 1.png 2.png
-  render --size 320x200 -e 3000km -C body:0 -S "MaterialID == 'ice' || MaterialID == \"basalt\"" -o 2.png two.h5
+  render --size 320x200 -e 8000km -C body:0 -S "MaterialID == 'ice' || MaterialID == \"basalt\"" -o 2.png two.h5
   cmp 1.png 2.png
-  render --size 320x200 -e 3000km -C body:0 -S 'Density > 0 && Coordinates.x < 1au' -o 2.png two.h5
+  render --size 320x200 -e 8000km -C body:0 -S 'Density > 0 && Coordinates.x < 1au' -o 2.png two.h5
   cmp 1.png 2.png
 }
 
