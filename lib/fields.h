@@ -48,6 +48,11 @@
   F(double,  signal, 1, "SignalSpeed",      "m/s",      "solver",   "largest signal velocity to a neighbour") \
   F(double,  dcrack, 1, "CrackRate",        "1/s",      "solver",   "rate of the cube root of damage") \
   F(double,  dalpha, 1, "DistentionRate",   "1/s",      "solver",   "change of the distention in the last step, over its length") \
+  F(double,  viscosity, 1, "ViscosityShare", "1",       "solver",   "share of the artificial viscosity that acts (viscosity.switch)") \
+  F(double,  div0,   1, "DivergenceBefore", "1/s",      "solver",   "divergence of the step before (viscosity.switch)") \
+  F(double,  sense,  1, "DivergenceSense",  "1",        "solver",   "mean sign of the divergence around (viscosity.switch)") \
+  F(double,  wander, 3, "SmoothedVelocity", "m/s",      "solver",   "smoothed velocity minus velocity (form.xsph)") \
+  F(double,  drho,   1, "DensityDiffusion", "kg/m^3/s", "solver",   "rate of the density by diffusion (form.diffusion)") \
   F(double,  old_x,   3, "OldVelocity",     "m/s",      "solver",   "at the start of the last step (ab2)") \
   F(double,  old_v,   3, "OldAcceleration", "m/s^2",    "solver",   "at the start of the last step (ab2)") \
   F(double,  old_rho, 1, "OldDensityRate",  "kg/m^3/s", "solver",   "at the start of the last step (ab2)") \

@@ -57,6 +57,41 @@ HD double tensor_largest(Sym s)
   return q + 2 * p * cos(acos(arg) / 3);
 }
 
+/* tensor_turn: one rotation of Jacobi's method that takes m[p][q] away; its columns into axes. */
+HD void tensor_turn(double m[3][3], double axes[3][3], int p, int q)
+{
+  if (m[p][q] == 0) return;
+  const double theta = (m[q][q] - m[p][p]) / (2 * m[p][q]);
+  const double t = (theta < 0 ? -1 : 1) / (fabs(theta) + sqrt(theta * theta + 1));
+  const double c = 1 / sqrt(t * t + 1), s = t * c;
+  for (int k = 0; k < 3; k++) {
+    const double a = m[k][p], b = m[k][q], u = axes[k][p], v = axes[k][q];
+    m[k][p] = c * a - s * b, m[k][q] = s * a + c * b;
+    axes[k][p] = c * u - s * v, axes[k][q] = s * u + c * v;
+  }
+  for (int k = 0; k < 3; k++) {
+    const double a = m[p][k], b = m[q][k];
+    m[p][k] = c * a - s * b, m[q][k] = s * a + c * b;
+  }
+}
+
+/* tensor_tension: what is left of s when its negative eigenvalues are taken for 0 (Jacobi; five
+ * sweeps, to rounding). */
+HD_CALL Sym tensor_tension(Sym s)
+{
+  double m[3][3] = {{s.xx, s.xy, s.xz}, {s.xy, s.yy, s.yz}, {s.xz, s.yz, s.zz}};
+  double n[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  Sym o = {0, 0, 0, 0, 0, 0};
+  for (int sweep = 0; sweep < 5; sweep++)
+    tensor_turn(m, n, 0, 1), tensor_turn(m, n, 0, 2), tensor_turn(m, n, 1, 2);
+  for (int k = 0; k < 3; k++) {
+    const double l = m[k][k] > 0 ? m[k][k] : 0;
+    o.xx += l * n[0][k] * n[0][k], o.xy += l * n[0][k] * n[1][k], o.xz += l * n[0][k] * n[2][k];
+    o.yy += l * n[1][k] * n[1][k], o.yz += l * n[1][k] * n[2][k], o.zz += l * n[2][k] * n[2][k];
+  }
+  return o;
+}
+
 /* tensor_invert: the inverse by cofactors; det != 0 as tensor_det has it. */
 HD Sym tensor_invert(Sym s, double det)
 {

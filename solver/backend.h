@@ -100,10 +100,12 @@ struct Sim {
   Param par;
   Material *material; /* [materials], host */
   int materials;
-  int solid;    /* any material with a shear modulus, and strength on */
-  int fluid;    /* any other */
-  int viscous;  /* physical viscosity */
-  int tensor;   /* forces need the velocity gradient and a stress: solid, or viscous */
+  int solid;   /* any material with a shear modulus, and strength on */
+  int fluid;   /* any other */
+  int viscous; /* physical viscosity */
+  int rich;    /* pair terms of pair_rich.h */
+  int tensor;  /* forces need the velocity gradient and a stress: solid, viscous or rich */
+  PairMore more;
   int rare;     /* any material with laws that few runs need (material_rare) */
   int porous;   /* any material with pores */
   int heated;   /* any material whose strength has a temperature of its own, and strength on */
@@ -134,6 +136,15 @@ struct Sim {
   double dt_before;  /* length of the last step [s]; 0: there is none */
   BackendTimer timer[TIMERS];
 };
+
+/* rich_open: sim->rich and sim->more, from the settings and the particles (par.spacing, where it is
+ * 0). rich_step: its part of a Step. rich_idle: whether a field is of terms that this run has not.
+ * rich_fields: the names of those fields that a checkpoint needs, a space before each. */
+enum { RICH_NAMES = 64 };
+void rich_open(Sim *sim, const Parts *parts);
+Rich rich_step(const Sim *sim);
+int rich_idle(const Sim *sim, const char *member);
+const char *rich_fields(const Sim *sim, char names[RICH_NAMES]);
 
 /* backend_find: what "auto", "cpu", "cuda" or "cuda:K" means here; auto is a card when there is
  * one. NULL with a message. */

@@ -24,6 +24,10 @@ static inline int conflict_mirrors(const Param *p)
     "without self-gravity no particle lies deepest") \
   C("pressure_form", "density", p->pressure == PARAM_PRODUCT && p->density != PARAM_CONTINUITY, \
     "the product goes with the density by continuity") \
+  C("viscosity.balsara", "viscosity.switch", p->balsara && p->viscosity_switch == RICH_CULLEN_DEHNEN, \
+    "it has a limiter of its own") \
+  C("stress.artificial", "stress.spacing", p->artificial > 0 && s->rich && !(s->more.over > 0), \
+    "particles are farther apart than h") \
   C("step.max", "step.min", p->step_max > 0 && p->step_max <= p->step_min, "no step is left between the two") \
   C("spin.axis", "spin.rate", p->spin_rate > 0 && p->spin_axis[0] == 0 && p->spin_axis[1] == 0 && p->spin_axis[2] == 0, \
     "it is no direction") \
@@ -62,6 +66,13 @@ static inline int conflict_mirrors(const Param *p)
   U("smoothing.fewest", p->smoothing != PARAM_OVERCORRECTED, "smoothing.mode") \
   U("smoothing.most", p->smoothing != PARAM_OVERCORRECTED, "smoothing.mode") \
   U("smoothing.width", p->smoothing != PARAM_OVERCORRECTED, "smoothing.mode") \
+  U("stress_form", s->fluid && !s->solid && !s->viscous, "no matter here has a shear stress") \
+  U("form.diffusion", p->density != PARAM_CONTINUITY, "density") \
+  U("stress.exponent", !(p->artificial > 0), "stress.artificial") \
+  U("stress.spacing", !(p->artificial > 0), "stress.artificial") \
+  U("viscosity.switch", p->alpha == 0 && p->beta == 0, "no artificial viscosity") \
+  U("viscosity.balsara", p->alpha == 0 && p->beta == 0, "no artificial viscosity") \
+  U("viscosity.least", p->viscosity_switch == RICH_NONE, "viscosity.switch") \
   U("smoothing.min", p->smoothing == PARAM_FIXED, "smoothing.mode") \
   U("smoothing.max", p->smoothing == PARAM_FIXED, "smoothing.mode") \
   U("sink.rule", !points_sinks(s), "no point mass has a radius") \

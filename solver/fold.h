@@ -19,6 +19,7 @@ HD void fold_mirror(const State *s, long i, int d)
   const long j = 3 * i + d;
   s->v[j] = -s->v[j], s->vp[j] = -s->vp[j], s->a[j] = -s->a[j];
   if (s->pull) s->pull[j] = -s->pull[j];
+  if (s->wander) s->wander[j] = -s->wander[j];
   if (s->s) fold_tensor(&s->s[6 * i], d);
   if (s->old_x) s->old_x[j] = -s->old_x[j], s->old_v[j] = -s->old_v[j];
   if (s->old_s) fold_tensor(&s->old_s[6 * i], d);

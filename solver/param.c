@@ -34,6 +34,8 @@ static const CfgRow top[] = {
    "continuity equation, kernel sum, or kernel sum of the number density"},
   {"pressure_form", CFG_CHOICE, AT(pressure), "squares|product", "squares", ANY,
    "p_i/rho_i^2 + p_j/rho_j^2 (001 eq. 30), or (p_i + p_j)/(rho_i rho_j): layers of other density stay at rest (continuity)"},
+  {"stress_form", CFG_CHOICE, AT(stress_form), "squares|product", "product", ANY,
+   "S_i C_i/rho_i^2 + S_j C_j/rho_j^2, or (S_i C_i + S_j C_j)/(rho_i rho_j)"},
   {"density_floor", CFG_REAL, AT(density_floor), "1", "1", 0, 1e6,
    "smallest density, in units of what a lone particle's own kernel makes, m W(0)"},
   {"energy", CFG_CHOICE, AT(energy), "full|isentropic|frozen", "full", ANY,
@@ -60,6 +62,10 @@ static const CfgRow viscosity[] = {
    "linear artificial viscosity of 001 eq. 32, h the full support: 0.5 is the 1 of codes with half of it"},
   {"beta", CFG_REAL, AT(beta), "1", "0.5", 0, 100,
    "quadratic artificial viscosity: 0.5 is the 2 of codes with half the support"},
+  {"switch", CFG_CHOICE, AT(viscosity_switch), "none|morris_monaghan|cullen_dehnen", "none", ANY,
+   "artificial viscosity of each particle between `least` and 1 times alpha and beta, as shocks need it"},
+  {"least", CFG_REAL, AT(viscosity_least), "1", "0.1", 0, 1, "smallest share of alpha and beta with a switch"},
+  {"balsara", CFG_BOOL, AT(balsara), NULL, "false", ANY, "less artificial viscosity where matter turns or shears (Balsara 1995)"},
   {"kinematic", CFG_REAL, AT(shear), "m^2/s", "0", 0, 1e300, "constant kinematic viscosity of fluids (Navier-Stokes)"},
   {"shakura_sunyaev", CFG_REAL, AT(shakura), "1", "0", 0, 10,
    "alpha of a kinematic viscosity alpha c H of fluids, H = aspect times the distance from the origin"},
@@ -67,6 +73,17 @@ static const CfgRow viscosity[] = {
   {"bulk", CFG_REAL, AT(bulk), "m^2/s", "0", 0, 1e300, "constant kinematic bulk viscosity of fluids"},
   {"compression", CFG_REAL, AT(compression), "1", "0", 0, 100,
    "f of a kinematic bulk viscosity f h^2 |div v| of fluids under compression (Kley 1999: 0.5)"},
+};
+static const CfgRow form[] = {
+  {"xsph", CFG_REAL, AT(xsph), "1", "0", 0, 1, "particles move with the mean velocity around, by this factor (001 eq. 40)"},
+  {"diffusion", CFG_REAL, AT(diffusion), "1", "0", 0, 1,
+   "delta of the diffusion of density of Molteni & Colagrossi (2009), h the full support: 0.05 is the 0.1 of codes with half of it"},
+};
+static const CfgRow stress[] = {
+  {"artificial", CFG_REAL, AT(artificial), "1", "0", 0, 10,
+   "factor eps of the artificial stress against clumping in tension (001 eq. 35-38: 0.2)"},
+  {"exponent", CFG_INT, AT(stress_exponent), NULL, "4", 0, 15, "n: it goes with (W/W at the mean distance of particles)^n"},
+  {"spacing", CFG_REAL, AT(spacing), "1", "0", 0, 1, "mean distance of particles over h; 0: (m/rho)^(1/D)/h of the input"},
 };
 static const CfgRow force[] = {
   {"x", CFG_REAL, AT(force[0]), "m/s^2", "0", ANY, "constant body force along x"},
@@ -226,6 +243,8 @@ static const Group groups[] = {GROUP("", top),
                                GROUP("strength", strength),
                                GROUP("gravity", gravity),
                                GROUP("viscosity", viscosity),
+                               GROUP("form", form),
+                               GROUP("stress", stress),
                                GROUP("force", force),
                                GROUP("heating", heating),
                                GROUP("smoothing", smoothing),

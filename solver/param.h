@@ -25,6 +25,10 @@ typedef struct {
   int gravity, gravity_every;
   double theta, G, gravity_tolerance;
   double alpha, beta;
+  int viscosity_switch, balsara;
+  double viscosity_least;
+  int stress_form, stress_exponent;
+  double xsph, diffusion, artificial, spacing;
   double shear, bulk, shakura, aspect, compression;
   double force[3];
   double deposit, deposit_centre[3], deposit_radius, deposit_begin, deposit_end;

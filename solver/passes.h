@@ -6,9 +6,9 @@
 #define PASSES_H
 
 #include "../physics/pair.h"
-#include "fluid.h"
 #include "fold.h"
 #include "hold.h"
+#include "rich.h"
 
 /* Why a step is as short as it is; what conserved.tsv and the log name. limits.h has what each is.
  */
@@ -45,11 +45,12 @@ typedef struct {
       omega[BODIES][3]; /* frames that are damped towards */
   struct {
     double x, v, rho, u, s, crack;
-  } error;          /* weights of the errors of rk2-adaptive, over the tolerance */
-  int slot, rates;  /* saved arrays to work on; whether rates are saved instead of the state */
-  double weight[3]; /* of the saved rates 1..3 in a combination */
-  double pull;      /* weight of gravity in this kick, over that of the other forces, minus 1 */
-  int viscous;      /* physical viscosity */
+  } error;           /* weights of the errors of rk2-adaptive, over the tolerance */
+  int slot, rates;   /* saved arrays to work on; whether rates are saved instead of the state */
+  double weight[3];  /* of the saved rates 1..3 in a combination */
+  double pull;       /* weight of gravity in this kick, over that of the other forces, minus 1 */
+  int viscous, rich; /* physical viscosity; pair terms of pair_rich.h */
+  Rich more;
   Fluid fluid;
   Deposit deposit;
   Hold hold;
@@ -149,8 +150,10 @@ HD void passes_pack(const State *s, const Step *k, long i, int solid, double dt)
     Sym c = passes_rotate(passes_stress(&s->cm[6 * i]), &s->g[9 * i], dt);
     Sym dev =
         solid ? tensor_scale(passes_stress(&s->s[6 * i]), left) : fluid_stress(s, &k->fluid, i);
+    if (k->rich && k->more.squares) dev = tensor_scale(dev, 1 / (s->rho[i] * s->rho[i]));
     tensor_product(dev, c, t);
   }
+  if (k->rich) rich_extra(s, &k->more, i, left, solid, k->dt);
 }
 
 /* passes_body: the record of i for the force loop. */
@@ -221,14 +224,21 @@ HD double passes_crowd(const State *s, const Step *k, long i)
   return want > 1.05 ? 1.05 : want < 0.95 ? 0.95 : want;
 }
 
+/* passes_motion: the velocity that a particle moves with, component j (001 eq. 40). */
+HD double passes_motion(const State *s, long j)
+{
+  return s->wander ? s->v[j] + s->wander[j] : s->v[j];
+}
+
 /* drift: x to the end of the step, y at its middle for loop A, density and h predicted there, h at
  * the end with the divergence of the step before, and the velocity predicted for loop B. */
 HD void pass_drift(const State *s, const Step *k, long i)
 {
   double half = 0.5 * k->dt, h;
   for (int d = 0; d < 3; d++) {
-    s->y[3 * i + d] = s->x[3 * i + d] + s->v[3 * i + d] * half;
-    s->x[3 * i + d] += s->v[3 * i + d] * k->dt;
+    const double v = passes_motion(s, 3 * i + d);
+    s->y[3 * i + d] = s->x[3 * i + d] + v * half;
+    s->x[3 * i + d] += v * k->dt;
     s->vp[3 * i + d] = s->v[3 * i + d] + passes_kick(s, k, 3 * i + d) * half;
   }
   s->rhoa[i] = s->rho[i] * exp(-s->divv[i] * half);
@@ -249,6 +259,7 @@ HD void passes_density(const State *s, const Step *k, long i)
                                : s->dimension == 2 ? h * h
                                                    : h);
   if (k->density == 0) s->rho[i] *= exp(-s->divv[i] * k->dt);
+  if (s->drho) s->rho[i] += s->drho[i] * k->dt;
   if (s->rho[i] < floor) s->rho[i] = floor;
 }
 
@@ -359,6 +370,7 @@ HD void pass_finish(const State *s, const Step *k, long i)
   if (s->shock && k->energy == 0) s->shock[i] += half * s->dqdt[i];
   if (s->p[i] > s->pmax[i]) s->pmax[i] = s->p[i];
   if (s->Tmax && s->T[i] > s->Tmax[i]) s->Tmax[i] = s->T[i];
+  if (k->more.viscosity && k->dt == 0) s->div0[i] = s->divv[i];
   if (k->smoothing && k->dt > 0)
     s->h[i] = passes_follow(s, k, i, s->ha[i] * s->ha[i] / s->h[i], k->dt);
 }
@@ -403,11 +415,12 @@ HD void pass_save(const State *s, const Step *k, long i)
   const Saved *to = &s->saved[k->slot];
   double div = s->divv[i];
   for (int d = 0; d < 3; d++) {
-    to->x[3 * i + d] = k->rates ? s->v[3 * i + d] : s->x[3 * i + d];
+    to->x[3 * i + d] = k->rates ? passes_motion(s, 3 * i + d) : s->x[3 * i + d];
     to->v[3 * i + d] = k->rates ? s->acc[3 * i + d] : s->v[3 * i + d];
   }
   for (int d = 0; d < 6; d++) to->s[6 * i + d] = k->rates ? s->ds[6 * i + d] : s->s[6 * i + d];
   to->rho[i] = k->rates ? -s->rho[i] * div : s->rho[i];
+  if (k->rates && s->drho) to->rho[i] += s->drho[i];
   to->u[i] = k->rates ? passes_heating(s, k, i) : s->u[i];
   to->h[i] = k->rates ? (k->smoothing ? s->h[i] * passes_swell(s, k, i) : 0) : s->h[i];
   to->crack[i] = k->rates ? s->dcrack[i] : cbrt(s->damage[i]);
@@ -486,6 +499,7 @@ HD void pass_body_force(const State *s, const Step *k, long i)
 /* settle: the state that combine has reached: h towards the wanted neighbours, EOS, yield. */
 HD void pass_settle(const State *s, const Step *k, long i)
 {
+  if (k->more.viscosity) rich_switch(s, &k->more, i, k->dt);
   const int solid = k->strength && s->material[s->mat[i]].mu > 0;
   double h = s->h[i] * passes_crowd(s, k, i), alpha = matter_distention(s, i);
   s->h[i] = h < k->h_min ? k->h_min : h > k->h_max ? k->h_max : h;

@@ -67,7 +67,7 @@ Step sim_step(const Sim *sim, double dt)
   k.damping = p->damping, k.damping_radial = p->damping_radial;
   k.framed = p->damping > 0 || p->spin_rate > 0;
   spin_of(p, &k);
-  k.viscous = sim->viscous;
+  k.viscous = sim->viscous, k.rich = sim->rich, k.more = rich_step(sim);
   k.fluid = (Fluid){p->shear, p->bulk, p->shakura, p->aspect, p->compression};
   k.deposit = deposit_of(sim, dt);
   k.hold = sim->hold;
@@ -127,7 +127,8 @@ static int open_common(Sim *sim, const Param *par, const Parts *p, const char *d
     sim->heated |= par->strength && material_heats(m);
   }
   sim->viscous = par->shear > 0 || par->bulk > 0 || par->shakura > 0 || par->compression > 0;
-  sim->tensor = sim->solid || sim->viscous;
+  rich_open(sim, p);
+  sim->tensor = sim->solid || sim->viscous || sim->rich;
   sim->s.dimension = p->dimension;
   return points_open(sim, p, err) || conflict_check(par, sim, err) ? -1 : 0;
 }
@@ -241,13 +242,17 @@ static const char *also_stored(const Sim *sim, char text[64])
 
 int sim_restart(Sim *sim, const Param *par, const Parts *p, const char *device, Err *err)
 {
-  char also[64];
+  char also[64], names[RICH_NAMES];
   if (open_common(sim, par, p, device, err)) return sim_close(sim), -1;
   if (part_need(p, "a dudt dqdt divv p cs s nact signal dcrack nngb", "checkpoint", err))
     return sim_close(sim), -1;
-  if (part_need(p, also_stored(sim, also), "checkpoint", err)) return sim_close(sim), -1;
+  if (part_need(p, also_stored(sim, also), "checkpoint", err) ||
+      part_need(p, rich_fields(sim, names), "checkpoint", err))
+    return sim_close(sim), -1;
   sim->par.h_min = part_number(p, "run", "SmoothingMin"),
   sim->par.h_max = part_number(p, "run", "SmoothingMax");
+  if (par->artificial > 0) sim->par.spacing = part_number(p, "run", "StressSpacing");
+  rich_open(sim, p);
   sim->dt = part_number(p, "run", "NextStep");
   sim->step = (long)part_number(p, "run", "Step");
   if (sim->memory) {
@@ -392,8 +397,9 @@ int sim_sums(Sim *sim, Sums *out, Err *err)
 int sim_send(Sim *sim, Parts *p, Err *err)
 {
   Limits l;
-  char also[64];
+  char also[64], names[RICH_NAMES];
   if (limits_of(sim, &l, err) || part_add(p, stored, err) ||
+      part_add(p, rich_fields(sim, names), err) ||
       (sim->par.gravity_every > 1 && part_add(p, "pull", err)) ||
       part_add(p, also_stored(sim, also), err) ||
       (sim->memory &&
@@ -402,6 +408,8 @@ int sim_send(Sim *sim, Parts *p, Err *err)
     return -1;
   p->time = sim->time;
   if (sim->late && part_set_number(p, "run", "Late", 1, err)) return -1;
+  if (sim->par.artificial > 0 && part_set_number(p, "run", "StressSpacing", sim->par.spacing, err))
+    return -1;
   if (sim->par.gravity_every > 1 &&
       (part_set_number(p, "run", "OuterStep", sim->outer, err) ||
        part_set_number(p, "run", "OuterSteps", sim->outer_steps, err) ||

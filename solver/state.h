@@ -31,7 +31,8 @@
   W(double,  push,   1, "p/rho^2 [Pa m^6/kg^2], miscible: times m^2, product: p [Pa]; damage included") \
   W(double,  t,      9, "S C, damage included [Pa]") \
   W(double,  pull0,  3, "gravity at the evaluation before (gravity.tolerance) [m/s^2]") \
-  W(double,  cl,     1, "longitudinal wave speed [m/s]")
+  W(double,  cl,     1, "longitudinal wave speed [m/s]") \
+  W(double,  extra,  8, "PairExtra, of runs with more pair terms")
 /* clang-format on */
 
 /* What an integrator may put aside: the evolved quantities, or rates of them; the fields old_* are

@@ -21,6 +21,20 @@ static const Case unused[] = {
      "gravity.tolerance = 0.1 has no effect: gravity.every = 1"},
     {"gravity.every=2", "gravity.method=none", "gravity.method=tree",
      "gravity.every = 2 has no effect: gravity.method = none"},
+    {"stress_form=squares", "strength.on=true", "strength.on=true",
+     "stress_form = squares has no effect: no matter here has a shear stress"},
+    {"form.diffusion=0.1", "density=sum", "density=continuity",
+     "form.diffusion = 0.1 has no effect: density = sum"},
+    {"stress.exponent=2", "stress.artificial=0", "stress.artificial=0.1",
+     "stress.exponent = 2 has no effect: stress.artificial = 0"},
+    {"stress.spacing=0.4", "stress.artificial=0", "stress.artificial=0.1",
+     "stress.spacing = 0.4 has no effect: stress.artificial = 0"},
+    {"viscosity.switch=morris_monaghan", "viscosity.alpha=0 viscosity.beta=0", "viscosity.alpha=1",
+     "viscosity.switch = morris_monaghan has no effect: no artificial viscosity"},
+    {"viscosity.balsara=true", "viscosity.alpha=0 viscosity.beta=0", "viscosity.alpha=1",
+     "viscosity.balsara = true has no effect: no artificial viscosity"},
+    {"viscosity.least=0.2", "viscosity.switch=none", "viscosity.switch=cullen_dehnen",
+     "viscosity.least = 0.2 has no effect: viscosity.switch = none"},
     {"smoothing.neighbours=60", "smoothing.mode=density", "smoothing.mode=neighbours",
      "smoothing.neighbours = 60 has no effect: smoothing.mode = density"},
     {"smoothing.min=0.5", "smoothing.mode=fixed", "smoothing.mode=density",
@@ -162,6 +176,13 @@ static const Case conflicts[] = {
     {"pressure_form=product", "density=sum", "density=continuity",
      "pressure_form = product cannot go with density = sum: the product goes with the density by "
      "continuity"},
+    {"viscosity.balsara=true", "viscosity.switch=cullen_dehnen", "viscosity.switch=morris_monaghan",
+     "viscosity.balsara = true cannot go with viscosity.switch = cullen_dehnen: it has a limiter "
+     "of "
+     "its own"},
+    {"stress.artificial=0.2", "stress.spacing=1", "stress.spacing=0.4",
+     "stress.artificial = 0.2 cannot go with stress.spacing = 1: particles are farther apart than "
+     "h"},
     {"step.max=1e-3", "step.min=1e-2", "step.min=1e-4",
      "step.max = 0.001 cannot go with step.min = 0.01: no step is left between the two"},
     {"spin.axis=0,0,0", "spin.rate=1", "spin.rate=0",
@@ -202,7 +223,7 @@ static const Sim full = {.solid = 1,
                          .bounds.on = 1};
 static const Sim gas = {.fluid = 1, .s.dimension = 3}, rock = {.solid = 1, .s.dimension = 3};
 static const Sim walled = {.fluid = 1, .s.dimension = 3, .hold.on = 1};
-static const Sim plane = {.fluid = 1, .s.dimension = 2};
+static const Sim plane = {.fluid = 1, .s.dimension = 2}, far = {.rich = 1};
 
 static void check(const Case *c, long n, int (*look)(const Param *, const Sim *, Err *))
 {
@@ -211,6 +232,7 @@ static void check(const Case *c, long n, int (*look)(const Param *, const Sim *,
     const Sim *sim = strstr(c[k].text, "all matter")  ? &rock
                      : strstr(c[k].text, "dimension") ? &plane
                      : strstr(c[k].text, "walls or")  ? &walled
+                     : strstr(c[k].text, "than h")    ? &far
                                                       : &gas; /* that it is refused for */
     Err err;
     lab_set(&bad, c[k].with), lab_set(&without, c[k].with), lab_set(&good, c[k].fine);

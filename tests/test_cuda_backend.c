@@ -8,61 +8,15 @@
 #include "../lib/weibull.h"
 #include "../solver/reduce.h"
 #include "folder.h"
+#include "laws.h"
 #include "tabulated.h"
 
-/* Materials in units of their own, every law among them. */
-#define LIQUID(NAME)                                                                               \
-  "name = \"" NAME "\"; eos = { form = \"liquid\"; rho0 = 1.; c = 1.; heat_capacity = 1.; };"
-static const char *const materials[] = {
-    "name = \"a\"; eos = { form = \"murnaghan\"; rho0 = 1.; K = 1.; n = 2.; };"
-    "strength = { shear_modulus = 1.; form = \"von_mises\"; Y = 0.1; melt_energy = 1.5; };"
-    "damage = { form = \"grady_kipp\"; k = 1e10; m = 5.; };",
-    "name = \"b\"; eos = { form = \"tillotson\"; rho0 = 1.; A = 1.; B = 1.; E0 = 1.; Eiv = 0.3;"
-    "Ecv = 1.; a = 0.5; b = 1.5; alpha = 5.; beta = 5.; };"
-    "strength = { shear_modulus = 0.5; form = \"benz_asphaug\"; Y = 0.1; melt_energy = 1.; };"
-    "damage = { form = \"grady_kipp\"; k = 1e11; m = 6.; };",
-    "name = \"c\"; eos = { form = \"liquid\"; rho0 = 1.; c = 1.; };",
-    "name = \"d\"; eos = { form = \"stiffened\"; rho0 = 1.; c = 1.; G = 0.3; };",
-    "name = \"e\"; eos = { form = \"ideal\"; gamma = 1.4; c_min = 0.1; };",
-    "name = \"f\"; eos = { form = \"polytropic\"; K = 1.; gamma = 1.6; };",
-    "name = \"g\"; eos = { form = \"isothermal\"; c = 1.; };",
-    "name = \"h\"; eos = { form = \"local_isothermal\"; aspect = 0.1; mass = 1e10; r_min = 0.1; "
-    "};",
-    LIQUID("i") "strength = { shear_modulus = 1.; form = \"drucker_prager\"; cohesion = 0.1;"
-                "friction = 0.5; weak_limit = 0.9; weak_gamma = 0.5; };",
-    LIQUID("j") "strength = { shear_modulus = 1.; form = \"mohr_coulomb\"; cohesion = 0.1;"
-                "friction = 0.5; };",
-    LIQUID("k") "strength = { shear_modulus = 1.; form = \"lundborg\"; cohesion = 0.1;"
-                "friction = 1.; limit = 0.3; };",
-    LIQUID(
-        "l") "strength = { shear_modulus = 1.; form = \"collins\"; cohesion = 0.1; friction = 1.;"
-             "limit = 0.3; friction_damaged = 0.5; melt_energy = 2.; };",
-    LIQUID("m") "strength = { shear_modulus = 1.; form = \"johnson_cook\"; A = 0.1; B = 0.1;"
-                "n = 0.3; C = 0.1; rate0 = 0.1; T0 = 0.; Tmelt = 2.; };",
-    "name = \"n\"; eos = { form = \"table\"; file = \"heat.h5\"; };",
-    "name = \"o\"; eos = { form = \"table\"; file = \"energy.h5\"; };",
-    LIQUID("p") "strength = { shear_modulus = 1.; form = \"lundborg\"; cohesion = 0.1; friction = "
-                "1.; };"
-                "damage = { form = \"grady_kipp\"; k = 1e10; m = 5.; };"
-                "porosity = { form = \"p_alpha\"; alpha_0 = 1.5; c_elastic = 0.5; p_e = 0.01; p_s "
-                "= 1.; };",
-    LIQUID("q") "porosity = { form = \"p_alpha_two_power\"; alpha_0 = 1.5; p_e = 0.01; p_t = 0.1;"
-                "p_s = 1.; alpha_e = 2.; alpha_t = 1.3; n1 = 3.; n2 = 2.; };",
-    LIQUID("r") "porosity = { form = \"p_alpha_blum\"; alpha_0 = 1.8; p_0 = 0.04; };",
-    LIQUID("s") "porosity = { form = \"p_alpha_log\"; alpha_0 = 1.5; a = 0.7; };",
-    LIQUID("t") "porosity = { form = \"p_alpha_power\"; alpha_0 = 1.5; a = 0.9; b = 0.01; };",
-    LIQUID(
-        "u") "strength = { shear_modulus = 1.; form = \"none\"; };"
-             "porosity = { form = \"epsilon_alpha\"; alpha_0 = 1.5; kappa = 0.9; epsilon_x = -0.2;"
-             "gamma = 0.5; };",
-    LIQUID("v") "strength = { shear_modulus = 1.; form = \"porous\"; };"
-                "porosity = { form = \"sirono\"; alpha_0 = 3.; K_0 = 1.; p_m = 0.1; a = -2.; };",
-    LIQUID(
-        "w") "strength = { shear_modulus = 1.; form = \"regolith\"; cohesion = 0.1; friction = 0.5;"
-             "dilatancy = 0.3; };",
-    LIQUID("x") "strength = { shear_modulus = 1.; form = \"viscous_regolith\"; cohesion = 0.1;"
-                "friction = 0.5; viscosity = 0.1; };"};
-enum { MATERIALS = sizeof materials / sizeof *materials };
+/* Settings of the extra pair terms. */
+#define RICH                                                                                       \
+  "pressure_form=product stress_form=squares form.xsph=0.5 form.diffusion=0.1 "                    \
+  "stress.artificial=0.2 "                                                                         \
+  "stress.spacing=0.5 force.x=0.1 viscosity.switch=cullen_dehnen"
+#define RICH_TOO "viscosity.switch=morris_monaghan viscosity.balsara=true stress.artificial=0.2"
 
 /* The arrays of a State. */
 typedef struct {
@@ -262,6 +216,9 @@ static Step any_step(const Sim *sim, uint64_t seed)
   k.damage = rng_uniform(1, seed, 3) < 0.7;
   k.strength = rng_uniform(1, seed, 4) < 0.7, k.rates = rng_uniform(1, seed, 5) < 0.5;
   k.viscous = rng_uniform(1, seed, 11) < 0.3, k.fluid = (Fluid){.1, .2, .3, .1, .5};
+  k.rich = k.rich && rng_uniform(1, seed, 12) < 0.8;
+  k.more = (Rich){
+      (int)(seed / 2 % 2), (int)(3 * rng_uniform(1, seed, 13)), seed % 3 == 0, 0.1, 0.2, 0.5, 0.1};
   k.deposit = (Deposit){seed % 3, {.1, .2, .3}, .7, seed % 2, (int)(seed % 4)};
   k.damping = rng_uniform(1, seed, 6) < 0.5 ? 0.3 : 0, k.damping_radial = seed % 2;
   k.slot = (int)(4 * rng_uniform(1, seed, 7));
@@ -283,6 +240,7 @@ static void passes(void **state)
   Param par = lab_param("integrator=ab2", "gravity.method=none", NULL);
   Sim sim[2];
   (void)state;
+  lab_set(&par, RICH);
   open_both(sim, &par, p);
   for (int pass = 0; pass < PASS_COUNT; pass++)
     for (uint64_t seed = 0; seed < 12; seed++) {
@@ -387,14 +345,25 @@ typedef struct {
   "viscosity.kinematic=0.1 viscosity.bulk=0.1 viscosity.shakura_sunyaev=0.1 "                      \
   "viscosity.compression=0.5 heating.rate=1 heating.radius=0.5 heating.profile=gaussian"
 static const LoopCase loop_cases[] = {
-    {"integrator=leapfrog", "density=continuity", "strength.on=true", "kernel=wendland_c2", 3},
-    {"integrator=leapfrog", "density=sum", "strength.on=false", "kernel=cubic_spline", 3},
-    {"integrator=leapfrog", "pressure_form=product", "strength.on=true", "kernel=wendland_c2", 3},
-    {"integrator=leapfrog", "pressure_form=product", "strength.on=false", "kernel=wendland_c2", 2},
-    {"integrator=leapfrog", "density=miscible", "strength.on=true", "kernel=wendland_c4", 3},
-    {"integrator=leapfrog", "density=miscible", "strength.on=false", "kernel=wendland_c2", 2},
-    {"integrator=leapfrog", "density=sum", "strength.on=true", "kernel=quintic_spline", 2},
-    {"integrator=leapfrog", "density=sum", "strength.on=true", "kernel=cubic_spline", 1},
+    {"integrator=leapfrog", "density=continuity", "strength.on=true", "kernel=wendland_c2", 3,
+     RICH},
+    {"integrator=leapfrog", "density=continuity", "strength.on=false", "kernel=quintic_spline", 2,
+     RICH},
+    {"integrator=leapfrog", "density=continuity", "strength.on=true", "kernel=wendland_c4", 1,
+     RICH},
+    {"integrator=leapfrog", "density=miscible", "strength.on=true", "kernel=cubic_spline", 3,
+     RICH_TOO},
+    {"integrator=leapfrog", "density=continuity", "strength.on=true", "kernel=wendland_c2", 3,
+     NULL},
+    {"integrator=leapfrog", "density=sum", "strength.on=false", "kernel=cubic_spline", 3, NULL},
+    {"integrator=leapfrog", "pressure_form=product", "strength.on=true", "kernel=wendland_c2", 3,
+     NULL},
+    {"integrator=leapfrog", "pressure_form=product", "strength.on=false", "kernel=wendland_c2", 2,
+     NULL},
+    {"integrator=leapfrog", "density=miscible", "strength.on=true", "kernel=wendland_c4", 3, NULL},
+    {"integrator=leapfrog", "density=miscible", "strength.on=false", "kernel=wendland_c2", 2, NULL},
+    {"integrator=leapfrog", "density=sum", "strength.on=true", "kernel=quintic_spline", 2, NULL},
+    {"integrator=leapfrog", "density=sum", "strength.on=true", "kernel=cubic_spline", 1, NULL},
     {"integrator=leapfrog", "density=sum", "strength.on=false", "kernel=wendland_c2", 2, FLUID},
     {"integrator=leapfrog", "density=continuity", "strength.on=true", "kernel=wendland_c2", 3,
      FLUID},
@@ -406,10 +375,13 @@ static const LoopCase loop_cases[] = {
 static void loops(Sim sim[2], const char *precision, const char *what)
 {
   const double tolerance = strcmp(precision, "precision=double") == 0 ? 1e-12 : 3e-5;
-  static const char *const exact[] = {"row", "id", "nngb"}, *const near[] = {
-                                                                "divv", "g",    "cm",
-                                                                "rho",  "rhoa", "delta",
-                                                                "acc",  "du",   "signal"};
+  static const char *const exact[] = {"row", "id", "nngb"}, *const near[] = {"divv",   "g",
+                                                                             "cm",     "rho",
+                                                                             "rhoa",   "delta",
+                                                                             "acc",    "du",
+                                                                             "signal", "wander",
+                                                                             "sense",  "drho"},
+                           *const rates[] = {"viscosity", "extra"};
   Err err;
   send(sim);
   for (int d = 0; d < 2; d++) {
@@ -423,7 +395,9 @@ static void loops(Sim sim[2], const char *precision, const char *what)
     s->b->force(s);
   }
   for (int a = 0; a < 3; a++) same_array(sim, named(exact[a]), 0, what);
-  for (int a = 0; a < 9; a++) same_array(sim, named(near[a]), tolerance, what);
+  for (size_t a = 0; a < sizeof near / sizeof *near; a++)
+    same_array(sim, named(near[a]), tolerance, what);
+  for (int a = 0; a < 2; a++) same_array(sim, named(rates[a]), 30 * tolerance, what);
 }
 
 static void all_loops(void **state)

@@ -93,6 +93,9 @@ typedef struct {
 #define FLUID                                                                                      \
   "viscosity.kinematic=0.01 viscosity.compression=0.5 heating.rate=0.1 heating.end=0.1 "           \
   "force.x=0.1"
+#define RICH                                                                                       \
+  "pressure_form=product stress_form=squares form.xsph=0.5 form.diffusion=0.1 "                    \
+  "viscosity.switch=cullen_dehnen stress.artificial=0.3"
 static const Case cases[] = {
     {"integrator=leapfrog", "density=continuity", "gravity.method=tree", "step.cfl=0.4"},
     {"integrator=leapfrog", "density=sum", "gravity.method=direct", "damping.rate=0.1"},
@@ -104,6 +107,8 @@ static const Case cases[] = {
     {"integrator=leapfrog", "density=continuity", "gravity.method=none", "energy=isentropic"},
     {"integrator=leapfrog", "density=continuity", "gravity.method=none", FLUID},
     {"integrator=rk2-adaptive", "density=continuity", "gravity.method=none", FLUID},
+    {"integrator=leapfrog", "density=continuity", "gravity.method=none", RICH},
+    {"integrator=ab2", "density=continuity", "gravity.method=none", RICH},
     {"integrator=rk2-adaptive", "density=continuity", "gravity.method=tree", "step.error=1e-3"},
     {"integrator=rk2-adaptive", "density=sum", "gravity.method=direct", "step.error=1e-4"},
     {"integrator=rk2-adaptive", "density=miscible", "gravity.method=tree", "strength.on=false"},

@@ -9,7 +9,7 @@
 #include "../../lib/ngb.h"
 #include "../../lib/tree.h"
 
-enum { CPU_RECORD = 22 }; /* doubles of the longest record of a pair loop */
+enum { CPU_RECORD = 30 }; /* doubles of the longest record of a pair loop */
 
 typedef struct {
   Tree tree;

@@ -33,6 +33,11 @@ typedef struct {
   double x, y, z;
   PairBody b;
 } Body;
+typedef struct {
+  Body b;
+  PairExtra e;
+} Whole;
+enum { WHOLE = sizeof(Whole) / sizeof(double) };
 enum { FLOW = sizeof(Flow) / sizeof(double), BODY = sizeof(Body) / sizeof(double) };
 
 /* Row i: a particle or an image. */
@@ -58,6 +63,17 @@ static Body body_of(const State *s, long i)
   return b;
 }
 
+static Whole whole_of(const State *s, long i)
+{
+  const double *e = &s->extra[PAIR_EXTRA * image_owner(s, i)];
+  double w[3];
+  image_signs(s, i, w);
+  Whole o = {
+      body_of(s, i),
+      {e[0], e[1], e[2], w[0] * w[1] * e[3], w[0] * w[2] * e[4], e[5], w[1] * w[2] * e[6], e[7]}};
+  return o;
+}
+
 /* The records of all particles, once per loop. */
 static void records(Sim *sim, int body)
 {
@@ -65,7 +81,9 @@ static void records(Sim *sim, int body)
   const State *s = &sim->s;
 #pragma omp parallel for schedule(static)
   for (long i = 0; i < s->all; i++) {
-    if (body)
+    if (body && sim->rich)
+      ((Whole *)c->record)[i] = whole_of(s, i);
+    else if (body)
       ((Body *)c->record)[i] = body_of(s, i);
     else
       ((Flow *)c->record)[i] = flow_of(s, i);
@@ -161,6 +179,64 @@ forces(const Sim *sim, Pack *b, long from, long to, int kern, int line, int soli
   }
 }
 
+/* What pair_rich adds to the results of i: sums w, sense and rate. */
+static void keep_rich(const Sim *sim, long i, const double w[3], double sense, double rate)
+{
+  const State *s = &sim->s;
+  const Cpu *c = sim->own;
+  if (s->wander)
+    for (int d = 0; d < 3; d++) s->wander[3 * i + d] = sim->par.xsph * w[d] / s->m[i];
+  if (s->drho) s->drho[i] = sim->par.diffusion * rate;
+  if (s->sense) {
+    const double self =
+        s->m[i] * pair_weight(sim->par.kernel, s->dimension == 1, &c->run, 0, s->h[i]);
+    s->sense[i] = (sense + (s->divv[i] < 0 ? -self : self)) / s->rho[i];
+  }
+}
+
+static inline __attribute__((always_inline)) void rich_of(const Sim *sim, long i, const Whole *me,
+                                                          const double *p, long room, long n,
+                                                          int kern, int line)
+{
+  const Cpu *c = sim->own;
+  const State *s = &sim->s;
+  double fx = 0, fy = 0, fz = 0, work = 0, near = 0, signal = 2 * me->b.b.signal;
+  double wx = 0, wy = 0, wz = 0, sense = 0, rate = 0;
+  const Whole self = *me;
+  const PairRun run = c->run;
+  const PairMore more = sim->more;
+#pragma omp simd reduction(+ : fx, fy, fz, work, near, wx, wy, wz, sense, rate)                    \
+    reduction(max : signal)
+  for (long k = 0; k < n; k++) {
+    PairVector r = {self.b.x - AT(0), self.b.y - AT(1), self.b.z - AT(2)};
+    PairBody j = {AT(3),  AT(4),  AT(5),  AT(6),  AT(7),  AT(8),  AT(9),  AT(10), AT(11), AT(12),
+                  AT(13), AT(14), AT(15), AT(16), AT(17), AT(18), AT(19), AT(20), AT(21)};
+    PairExtra e = {AT(22), AT(23), AT(24), AT(25), AT(26), AT(27), AT(28), AT(29)};
+    PairRich o = pair_rich(r, &self.b.b, &j, &self.e, &e, kern, line, &run, &more);
+    fx += o.f.fx, fy += o.f.fy, fz += o.f.fz, work += o.f.work, near += o.f.near;
+    wx += o.wx, wy += o.wy, wz += o.wz, sense += o.sense, rate += o.rate;
+    signal = o.f.signal > signal ? o.f.signal : signal;
+  }
+  const double w = 1 / s->m[i], moved[3] = {wx, wy, wz};
+  s->acc[3 * i] = fx * w, s->acc[3 * i + 1] = fy * w, s->acc[3 * i + 2] = fz * w;
+  s->du[i] = work * w, s->signal[i] = signal, s->nngb[i] = (int32_t)near;
+  keep_rich(sim, i, moved, sense, rate);
+}
+
+/* Loop B of runs with more pair terms over a range. */
+static inline __attribute__((always_inline)) void riches(const Sim *sim, Pack *b, long from,
+                                                         long to, int kern, int line)
+{
+  const Cpu *c = sim->own;
+  const Whole *record = (const Whole *)c->record;
+  for (long i = from; i < to; i++) {
+    long n = (long)(c->ngb.start[i + 1] - c->ngb.start[i]);
+    double *p = pack_reserve(b, n, WHOLE);
+    pack((const double *)record, WHOLE, c->ngb.list + c->ngb.start[i], n, p, b->room);
+    rich_of(sim, i, &record[i], p, b->room, n, kern, line);
+  }
+}
+
 /* Kernel sums at x over a range: rho = sum m W and delta = sum W, the particle itself included
  * (001 eq. 28, 004 eq. 2.48-2.49); for loop A the mean of the density before and this one. */
 static inline __attribute__((always_inline)) void densities(const Sim *sim, long from, long to,
@@ -201,6 +277,8 @@ typedef void Range(const Sim *sim, Pack *b, long from, long to);
   STAMP(force_solid_##NAME, forces(sim, b, from, to, KERNEL_##CAPITAL, 0, 1, 0)) \
   STAMP(force_fluid_miscible_##NAME, forces(sim, b, from, to, KERNEL_##CAPITAL, 0, 0, 1)) \
   STAMP(force_solid_miscible_##NAME, forces(sim, b, from, to, KERNEL_##CAPITAL, 0, 1, 1)) \
+  STAMP(rich_line_##NAME, riches(sim, b, from, to, KERNEL_##CAPITAL, 1)) \
+  STAMP(rich_space_##NAME, riches(sim, b, from, to, KERNEL_##CAPITAL, 0)) \
   STAMP(density_line_##NAME, densities(sim, from, to, KERNEL_##CAPITAL, 1)) \
   STAMP(density_space_##NAME, densities(sim, from, to, KERNEL_##CAPITAL, 0))
 KERNELS(STAMPS)
@@ -210,9 +288,11 @@ KERNELS(STAMPS)
 #define FORCE_ROW(CAPITAL, NAME, ...) \
   {force_line_##NAME, force_fluid_##NAME, force_solid_##NAME, force_fluid_miscible_##NAME, \
    force_solid_miscible_##NAME},
+#define RICH_ROW(CAPITAL, NAME, ...) {rich_line_##NAME, rich_space_##NAME},
 #define DENSITY_ROW(CAPITAL, NAME, ...) {density_line_##NAME, density_space_##NAME},
 static Range *const gradient_stamps[KERNEL_COUNT][3] = {KERNELS(GRADIENT_ROW)};
 static Range *const force_stamps[KERNEL_COUNT][5] = {KERNELS(FORCE_ROW)};
+static Range *const rich_stamps[KERNEL_COUNT][2] = {KERNELS(RICH_ROW)};
 static Range *const density_stamps[KERNEL_COUNT][2] = {KERNELS(DENSITY_ROW)};
 /* clang-format on */
 
@@ -246,7 +326,8 @@ void cpu_force(Sim *sim)
   int which = sim->s.dimension == 1 ? 0 : 1 + !!sim->tensor + 2 * !!sim->miscible;
   backend_begin(sim, TIMER_B);
   records(sim, 1);
-  over(sim, force_stamps[sim->par.kernel][which]);
+  over(sim, sim->rich ? rich_stamps[sim->par.kernel][sim->s.dimension != 1]
+                      : force_stamps[sim->par.kernel][which]);
   backend_end(sim, TIMER_B);
 }
 

@@ -6,15 +6,16 @@
  * long ones do not hold up all others. What is read of a neighbour is packed once per loop into
  * 16-byte (32-byte) records, in code units.
  *
- * Kernel, solid and miscible are literals; a line (1D) has one general instance of each loop. */
+ * Kernel, solid and miscible are literals; a line (1D) has one general instance of each loop.
+ * Loop B of runs with more pair terms (pair_rich.h) is one of its own, with six quads. */
 #include "loops.h"
 
 enum { THREADS = 128, CROWD = 128 };
 
-/* The records: loop A's are x and v, loop B's x and up to four quads, where v is otherwise. */
+/* The records: loop A's are x and v, loop B's x and up to six quads, where v is otherwise. */
 typedef struct {
   Places x, v;
-  Quad *q[4];
+  Quad *q[6];
 } Records;
 
 struct CudaLoops {
@@ -34,6 +35,8 @@ typedef struct {
   Units unit;
   double rho, push;   /* unit of density [kg/m^D]; code units a unit of State.push */
   int kern, miscible; /* for the general instances; the form of the density */
+  PairMore more;
+  double xsph, diffusion;
 } Loop;
 
 static __device__ long self_of(void) { return (long)blockIdx.x * blockDim.x + threadIdx.x; }
@@ -95,6 +98,30 @@ template <int solid> static __global__ void pack_body(Loop a)
   const double xy = w[0] * w[1] * it, xz = w[0] * w[2] * it, yz = w[1] * w[2] * it;
   quad_set(a.r.q[2], i, t[1] * xy, t[2] * xz, t[3] * xy, t[4] * it);
   quad_set(a.r.q[3], i, t[5] * yz, t[6] * xz, t[7] * yz, t[8] * it);
+}
+
+/* The same of runs with more pair terms: stress as `squares` has it, PairExtra. */
+static __global__ void pack_rich(Loop a)
+{
+  long i = self_of();
+  const State &s = a.s;
+  const double il = 1 / a.unit.length, iv = 1 / a.unit.speed, iz = iv * iv * a.rho;
+  const double it = a.more.squares ? iz : iv * iv / a.rho;
+  if (i >= s.all) return;
+  const long o = image_owner(&s, i);
+  const double *x = &s.x[3 * i], *t = &s.t[9 * o], *e = &s.extra[8 * o];
+  double v[3], w[3];
+  seen(s, i, &s.vp[3 * o], v);
+  image_signs(&s, i, w);
+  const double xy = w[0] * w[1], xz = w[0] * w[2], yz = w[1] * w[2];
+  place_set(a.r.x, i, (x[0] - a.root->origin[0]) * il, (x[1] - a.root->origin[1]) * il,
+            (x[2] - a.root->origin[2]) * il, (real)(s.h[i] * il), (real)(s.m[i] / a.unit.mass));
+  quad_set(a.r.q[0], i, v[0] * iv, v[1] * iv, v[2] * iv, s.rho[o] / a.rho);
+  quad_set(a.r.q[1], i, s.cs[o] * iv, s.cl[o] * iv, s.push[o] * a.push, t[0] * it);
+  quad_set(a.r.q[2], i, t[1] * xy * it, t[2] * xz * it, t[3] * xy * it, t[4] * it);
+  quad_set(a.r.q[3], i, t[5] * yz * it, t[6] * xz * it, t[7] * yz * it, t[8] * it);
+  quad_set(a.r.q[4], i, e[0], e[1], e[2] * iz, e[3] * xy * iz);
+  quad_set(a.r.q[5], i, e[4] * xz * iz, e[5] * iz, e[6] * yz * iz, e[7] * iz);
 }
 
 template <class T> static __device__ __forceinline__ T from_lane(T x, int k)
@@ -232,6 +259,77 @@ template <int kern, int line, int solid, int miscible> struct Force {
   }
 };
 
+typedef struct {
+  Forces f;
+  double wx, wy, wz, sense, rate;
+} Riches;
+
+static __device__ __forceinline__ Riches add_two(Riches a, Riches b)
+{
+  a.f = add_two(a.f, b.f), a.wx += b.wx, a.wy += b.wy, a.wz += b.wz;
+  a.sense += b.sense, a.rate += b.rate;
+  return a;
+}
+
+static __device__ __forceinline__ void add_from(Riches *a, int k)
+{
+  add_from(&a->f, k);
+  a->wx += from_lane(a->wx, k), a->wy += from_lane(a->wy, k), a->wz += from_lane(a->wz, k);
+  a->sense += from_lane(a->sense, k), a->rate += from_lane(a->rate, k);
+}
+
+static __device__ PairExtra extra_get(const Records &r, long i)
+{
+  const Quad p = quad_get(r.q[4], i), q = quad_get(r.q[5], i);
+  const PairExtra e = {p.x, p.y, p.z, p.w, q.x, q.y, q.z, q.w};
+  return e;
+}
+
+template <int kern, int line> struct Richly {
+  typedef Riches Sum;
+
+  static __device__ __forceinline__ Riches sum(const Loop &a, long i, int from, int step)
+  {
+    const int n = a.count[i];
+    const uint32_t *list = list_of(a, i);
+    Place xi, xj;
+    const PairBody self = body_get<1>(a.r, i, &xi);
+    const PairExtra mine = extra_get(a.r, i);
+    Riches f = {{0, 0, 0, 0, 2 * self.signal, 0}, 0, 0, 0, 0, 0};
+    for (int k = from; k < n; k += step) {
+      const long j = neighbour(list, k);
+      const PairBody other = body_get<1>(a.r, j, &xj);
+      const PairExtra its = extra_get(a.r, j);
+      const PairRich o = pair_rich(place_between(xi, xj), &self, &other, &mine, &its,
+                                   line ? a.kern : kern, line, &a.run, &a.more);
+      const Riches one = {{o.f.fx, o.f.fy, o.f.fz, o.f.work, o.f.signal, o.f.near},
+                          o.wx,
+                          o.wy,
+                          o.wz,
+                          o.sense,
+                          o.rate};
+      f = add_two(f, one);
+    }
+    return f;
+  }
+
+  static __device__ __forceinline__ void keep(const Loop &a, long i, Riches f)
+  {
+    const State &s = a.s;
+    const double moved = a.xsph * a.unit.mass * a.unit.speed / s.m[i];
+    real h, m;
+    Force<kern, line, 1, 0>::keep(a, i, f.f);
+    if (s.wander)
+      s.wander[3 * i] = moved * f.wx, s.wander[3 * i + 1] = moved * f.wy,
+                   s.wander[3 * i + 2] = moved * f.wz;
+    if (s.drho) s.drho[i] = a.diffusion * f.rate * a.rho * a.unit.speed / a.unit.length;
+    if (!s.sense) return;
+    place_get(a.r.x, i, &h, &m);
+    const real own = m * pair_weight(line ? a.kern : kern, line, &a.run, 0, h);
+    s.sense[i] = (f.sense + (s.divv[i] < 0 ? -own : own)) * a.rho / s.rho[i];
+  }
+};
+
 /* Kernel sums: rho, delta, and rhoa, the mean of rho before and after (cpu/loops.c). */
 typedef struct {
   double delta, rho;
@@ -326,12 +424,15 @@ typedef struct {
 #define FORCE_ROW(CAPITAL, ...) \
   {STAMP(Force<KERNEL_##CAPITAL, 0, 0, 0>), STAMP(Force<KERNEL_##CAPITAL, 0, 1, 0>), \
    STAMP(Force<KERNEL_##CAPITAL, 0, 0, 1>), STAMP(Force<KERNEL_##CAPITAL, 0, 1, 1>)},
+#define RICH_ROW(CAPITAL, ...)    STAMP(Richly<KERNEL_##CAPITAL, 0>),
 #define DENSITY_ROW(CAPITAL, ...) STAMP(Densities<KERNEL_##CAPITAL, 0>),
 static const Stamp gradient_stamps[KERNEL_COUNT][2] = {KERNELS(GRADIENT_ROW)};
 static const Stamp force_stamps[KERNEL_COUNT][4] = {KERNELS(FORCE_ROW)};
+static const Stamp rich_stamps[KERNEL_COUNT] = {KERNELS(RICH_ROW)};
 static const Stamp density_stamps[KERNEL_COUNT] = {KERNELS(DENSITY_ROW)};
 static const Stamp gradient_line = STAMP(Gradient<0, 1, 1>);
 static const Stamp force_line[2] = {STAMP(Force<0, 1, 1, 0>), STAMP(Force<0, 1, 1, 1>)};
+static const Stamp rich_line = STAMP(Richly<0, 1>);
 static const Stamp density_line = STAMP(Densities<0, 1>);
 /* clang-format on */
 
@@ -351,6 +452,8 @@ static Loop loop_of(const Sim *sim)
             : a.run.volumes ? 1
                             : a.rho * a.rho) /
            (a.rho * c->unit.speed * c->unit.speed);
+  a.more = sim->more, a.xsph = sim->par.xsph, a.diffusion = sim->par.diffusion;
+  for (int k = 0; k < 3; k++) a.more.g[k] *= c->unit.length / (c->unit.speed * c->unit.speed);
   a.kern = sim->par.kernel, a.miscible = !!sim->miscible;
   return a;
 }
@@ -382,6 +485,7 @@ static void density(Sim *sim)
 static void force(Sim *sim)
 {
   const int line = sim->s.dimension == 1, solid = !!sim->tensor, miscible = !!sim->miscible;
+  if (sim->rich) return run_loop(sim, pack_rich, line ? &rich_line : &rich_stamps[sim->par.kernel]);
   run_loop(sim, solid || line ? pack_body<1> : pack_body<0>,
            line ? &force_line[miscible] : &force_stamps[sim->par.kernel][solid + 2 * miscible]);
 }
@@ -391,7 +495,11 @@ static size_t rows_of(const Sim *sim) { return ((size_t)sim->s.room + 31) / 32 *
 
 static size_t bytes(const Sim *sim)
 {
-  const size_t quads = (sim->tensor || sim->s.dimension == 1 ? 4 : 2) * sizeof(Quad),
+  const int line = sim->s.dimension == 1;
+  const size_t quads = (sim->rich             ? 6
+                        : sim->tensor || line ? 4
+                                              : 2) *
+                       sizeof(Quad),
                place = PLACE_BYTES;
   return rows_of(sim) * (place + (quads > place ? quads : place));
 }
@@ -406,7 +514,7 @@ static int loops_open(Sim *sim, Err *err)
   Records *r = &c->loops->r;
   char *second = c->loops->room + n * PLACE_BYTES;
   r->x = places_at(c->loops->room, n), r->v = places_at(second, n);
-  for (int k = 0; k < 4; k++) r->q[k] = (Quad *)second + (size_t)k * n;
+  for (int k = 0; k < 6; k++) r->q[k] = (Quad *)second + (size_t)k * n;
   return 0;
 }
 
