@@ -142,9 +142,41 @@ static void tolerance_is_kept(void **state)
   assert_true(error[0] < .01 && error[1] < .2 * error[0]);
 }
 
+/* A run goes on with the same bits from wherever it stands between two evaluations. */
+static void restart(void **state)
+{
+  Param par = lab_param("gravity.G=0.2", "smoothing.mode=fixed", "output.log_every=1000",
+                        "gravity.every=200", "gravity.tolerance=0.1", "step.cfl=0.02", NULL);
+  Parts *p = star();
+  Sim sim;
+  Err err;
+  SimStep done;
+  int fresh = 0;
+  (void)state;
+  lab_open(&sim, &par, p);
+  for (int n = 0; n < 120; n++) assert_return_code(sim_advance(&sim, 1.2, &done, &err), 0);
+  for (int n = 0; n < 16; n++) {
+    Parts *q = star();
+    Sim again;
+    lab_store(&sim, q);
+    fresh += sim.outer == 0;
+    if (sim_restart(&again, &par, q, lab_device(), &err)) fail_msg("%s", err.text);
+    assert_return_code(sim_advance(&again, 1.2, &done, &err), 0);
+    assert_return_code(sim_advance(&sim, 1.2, &done, &err), 0);
+    assert_true(again.outer_steps == sim.outer_steps && again.outer == sim.outer);
+    lab_store(&again, q), lab_store(&sim, p);
+    assert_memory_equal(p->x, q->x, 3 * (size_t)p->n * sizeof *p->x);
+    sim_close(&again);
+    part_free(q);
+  }
+  assert_true(fresh > 0 && fresh < 16);
+  sim_close(&sim);
+  part_free(p);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(tolerance_is_kept),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(restart), cmocka_unit_test(tolerance_is_kept),
                                      cmocka_unit_test(second_order),
                                      cmocka_unit_test(energy_is_kept)};
   omp_set_num_threads(1);
