@@ -69,7 +69,7 @@ $(runs:%=%/start.h5): $(bodies)
 
 # The run. It continues from its checkpoint when that is of the same start and the same settings, also to a later end.
 settings := $(strip --every $(EVERY)min $(patsubst %,--set %,gravity.method=$(GRAVITY) gravity.theta=$(THETA) \
-  gravity.every=$(GRAVITY_EVERY) output.checkpoint_every=60 $(SET)))
+  gravity.every=$(GRAVITY_EVERY) pressure_form=$(PRESSURE) output.checkpoint_every=60 $(SET)))
 beyond = awk '!/^\#/ { if (!n++) t = $$2; last = $$2 } END { exit !(last > t + $(END)*60 + 1) }'
 $(call from,$(runs:%=%/run/end),$(settings) --end +$(END)min)
 $(runs:%=%/run/end): %/run/end: %/start.h5

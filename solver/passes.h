@@ -148,8 +148,8 @@ HD void passes_pack(const State *s, const Step *k, long i, int solid, double dt)
   for (int d = 0; d < 9 && !solid && s->t; d++) t[d] = 0;
   if (solid || k->viscous) {
     Sym c = passes_rotate(passes_stress(&s->cm[6 * i]), &s->g[9 * i], dt);
-    Sym dev =
-        solid ? tensor_scale(passes_stress(&s->s[6 * i]), left) : fluid_stress(s, &k->fluid, i);
+    Sym dev = k->viscous && !solid ? fluid_stress(s, &k->fluid, i)
+                                   : tensor_scale(passes_stress(&s->s[6 * i]), left);
     if (k->rich && k->more.squares) dev = tensor_scale(dev, 1 / (s->rho[i] * s->rho[i]));
     tensor_product(dev, c, t);
   }

@@ -68,7 +68,7 @@ expect() { [ "$1" = "$2" ] || { echo "expected '$1', got '$2'"; return 1; }; }
   bodies -n recipe.moon='mksphere -m 1e22kg -l basalt' >/dev/null
   bodies && expect '' "$(called)"
   bodies recipe.moon='mksphere -m 1e22kg -l basalt' && expect 'mksphere relax ' "$(called)"
-  bodies BODIES=moon RELAX='--fluid' && grep -q 'relax --proof 2tff --fluid' "$CALLS"
+  bodies BODIES=moon RELAX='--fluid' && grep -q 'relax --set pressure_form=product --proof 2tff --fluid' "$CALLS"
 }
 
 @test "a body that fails is not there; what is not at rest fails; unknown names are one line" {

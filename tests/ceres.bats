@@ -20,7 +20,7 @@ mock() {
       cat; } <<'MOCK' >"$mock/$name"
 to=/dev/stdout all="$*"
 [[ $name == relax || $name == weibull ]] && all="$all $(cat)"
-while [ $# -gt 0 ]; do [[ $1 == -o || $1 == -p ]] && to=$2; shift; done
+while [ $# -gt 0 ]; do [[ $1 == -o || ($1 == -p && $name != report) ]] && to=$2; shift; done
 case "$name $all" in
 solver*)
   printf '# step\ttime[s]\tE_kinetic[J]\tE_internal[J]\tE_potential[J]\tE_total[J]\tp_x[kg*m/s]\tp_y[]\tp_z[]\tL_x[]\tL_y[]\tL_z[]\n' >"$to/conserved.tsv"

@@ -208,7 +208,7 @@ static void check_style(const char *name, const char *text)
       "form",       "source",     "a",         "b",          "alpha",    "beta",
       "rho_min",    "m",          "crack",     "shear",      "friction", "friction_damaged",
       "weak_limit", "weak_alpha", "weak_beta", "weak_gamma", "alpha_0",  "alpha_e",
-      "alpha_t",    "n1",         "n2"};
+      "alpha_t",    "n1",         "n2",        "gamma",      "K"};
   config_t cfg;
   Err err;
   assert_int_equal(cfg_open_text(&cfg, text, name, &err), 0);
@@ -266,8 +266,9 @@ static void files(void **state)
     assert_true(fabs((1 + e->B / e->A + (e->a + e->b) / 2) / 2 - T[k].slope) <= 0.00501);
   }
   names = material_names(&n);
-  for (int k = 0; k < n; k++) load(names[k]);
-  assert_int_equal(n, N(T));
+  int tillotsons = 0;
+  for (int k = 0; k < n; k++) tillotsons += load(names[k]).eos.form == EOS_TILLOTSON;
+  assert_int_equal(tillotsons, N(T));
   free(names);
 }
 
@@ -344,7 +345,7 @@ static void unknown(void **state)
   assert_null(material_find("bassalt", name, &err));
   assert_string_equal(err.text, "unknown material 'bassalt' (did you mean 'basalt'?)");
   assert_null(material_find("xyzzy", name, &err));
-  assert_non_null(strstr(err.text, "known: aluminium, basalt"));
+  assert_non_null(strstr(err.text, "known: air, aluminium"));
 }
 
 static void of_a_snapshot(void **state)

@@ -3,10 +3,24 @@
  * Work is queued on one stream; the host waits for the list's length and for the step's limits. */
 #include "cuda.h"
 
-/* A kernel a pass; and, for runs without rare laws, one without their code, which takes half as
- * many registers again. */
+/* Whether a step asks for none of the terms that few runs have; without: one that does not. */
+static int plain(const Step *k)
+{
+  return !k->rich && !k->viscous && k->deposit.rate == 0 && !k->more.viscosity;
+}
+
+static __device__ __forceinline__ Step without(Step k)
+{
+  k.rich = k.viscous = k.more.viscosity = 0, k.deposit.rate = 0;
+  return k;
+}
+
+/* A kernel a pass; and, for runs without rare laws and such terms, one without their code, which
+ * takes half as many registers again. Parameters stay where they are: what is called, not inlined,
+ * would need a copy of them for each thread, 2 kB to write and read. */
 #define CUDA_PASS(CAPITAL, NAME)                                                                   \
-  static __global__ void pass_##NAME##_all(const State s, const Step k)                            \
+  static __global__ void pass_##NAME##_all(const __grid_constant__ State s,                        \
+                                           const __grid_constant__ Step k)                         \
   {                                                                                                \
     long i = (long)blockIdx.x * blockDim.x + threadIdx.x;                                          \
     if (i < s.n) pass_##NAME(&s, &k, i);                                                           \
@@ -14,9 +28,10 @@
 PASSES(CUDA_PASS)
 #undef CUDA_PASS
 #define CUDA_PASS(CAPITAL, NAME)                                                                   \
-  static __global__ void pass_##NAME##_common(State s, const Step k)                               \
+  static __global__ void pass_##NAME##_common(State s, const Step given)                           \
   {                                                                                                \
     long i = (long)blockIdx.x * blockDim.x + threadIdx.x;                                          \
+    const Step k = without(given);                                                                 \
     s.rare = 0;                                                                                    \
     if (i < s.n) pass_##NAME(&s, &k, i);                                                           \
   }
@@ -30,7 +45,7 @@ static void cuda_pass(Sim *sim, int pass, const Step *step)
   const unsigned block = 128, grid = launch_blocks((size_t)sim->s.n, block);
   points_pass(sim, pass, step);
   cuda_begin(sim, TIMER_LOCAL);
-  switch (pass + (pass >= PASS_EOS_FIRST && !sim->rare ? PASS_COUNT : 0)) {
+  switch (pass + (pass >= PASS_EOS_FIRST && !sim->rare && plain(step) ? PASS_COUNT : 0)) {
 #define CUDA_PASS(CAPITAL, NAME)                                                                   \
   case PASS_##CAPITAL: LAUNCH(pass_##NAME##_all, grid, block, 0, c->stream, sim->s, *step); break;
     PASSES(CUDA_PASS)

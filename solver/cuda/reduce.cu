@@ -110,11 +110,11 @@ template <class T> static __device__ void join(T *mine)
     __syncthreads();
     if (t < half) merge(&all[t], &all[t + half]);
   }
-  if (t == 0) *mine = all[0];
+  *mine = all[t]; /* its own: what others still write is not read */
 }
 
 /* A block's share; blockIdx.y: body. */
-template <class T> static __global__ void reduce_parts(const Context c, T *part)
+template <class T> static __global__ void reduce_parts(const __grid_constant__ Context c, T *part)
 {
   T o;
   start(&o);
