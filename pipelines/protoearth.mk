@@ -2,13 +2,13 @@
 # A proto-Earth of iron and granite at rest, with the density by continuity, summed over neighbours (standard SPH) and over their
 # number (miscible): whether it is at rest, and what each makes of the pressure at the core-mantle boundary, after Reufer (2011),
 # section 2.1.11 and figure 2.1. The bodies are those of the library (recipes.mk).
-#   make -f pipelines/protoearth.mk             bodies, relaxation, figure, report, checks
-#   make -f pipelines/protoearth.mk N=20000
+#   make -f pipelines/protoearth.mk [SIZE=small|medium|large]        bodies, relaxation, figure, report, checks
+#   make -f pipelines/protoearth.mk N=50000
 #   make -f pipelines/protoearth.mk recipe.protoearth='mksphere -m 6e24kg -l iron:0.25 -l granite --hydrostatic'
-# The figure is OUT/N3000-s1/protoearth.png, the numbers are in report.txt beside it.
+# The figure is OUT/N5000-s1/protoearth.png, the numbers are in report.txt beside it; OUT/verdict.tsv has those of the last size.
 
 # particles
-N = $(if $(gpu),100000,3000)
+N = $(call by_size,5000,20000,100000)
 # of the lattice's orientation
 SEED = 1
 # where everything goes
@@ -17,7 +17,7 @@ OUT = out/protoearth
 # ------------------------------------------------------------------------------------------------------------------------------
 
 here := $(dir $(lastword $(MAKEFILE_LIST)))
-include $(here)common.mk
+include $(here)lab.mk
 include $(here)recipes.mk
 to := $(OUT)/N$(N)-s$(SEED)
 planet := protoearth-n$(N)-s$(SEED)
@@ -26,7 +26,8 @@ tables := $(to)/standard.tsv $(to)/miscible.tsv
 $(call library,$(forms))
 
 figure := $(if $(shell command -v gnuplot),$(to)/protoearth.png)
-all: $(to)/checked $(figure) $(to)/report.html
+pictures = $(OUT)/protoearth.png
+all: $(to)/checked $(to)/report.html
 
 # Material, radius, pressure, density, support of each particle.
 $(to)/standard.tsv: $(call body,$(planet)-sum)
@@ -53,12 +54,15 @@ $(to)/checked: $(to)/report.txt
 	@! grep -q 'FAILED' $<
 	@touch $@
 
+# The claims; those of another size make them again.
+$(call from,$(OUT)/verdict.tsv,$(N) $(SEED))
+$(OUT)/verdict.tsv: $(here)protoearth_verdict.awk $(tables) $(call body,$(planet))
+	$(call judge,protoearth_verdict.awk) -v n=$(N) $(profile) $(tables) $(call reports,$(planet)) > $@
+	$(remember)
+$(OUT)/protoearth.png: $(figure) $(OUT)/verdict.tsv
+	cp $< $@
+
 # One page with all of it.
 $(to)/report.html: $(to)/report.txt $(figure) $(call body,$(planet)-miscible)
 	@report -g -o $@ -t 'A proto-Earth of $(N) particles' -x $<:'What was reached' \
 	  $(figure:%=-p %:'Pressure and density, standard and miscible SPH beside the structure in one dimension.') $(lastword $^)
-
-clean:
-	rm -rf $(OUT)
-
-.PHONY: all clean

@@ -5,8 +5,8 @@
 
 @test "the jump of pressure at the boundary is there with standard SPH and gone with miscible; nothing is made twice" {
   cd "$BATS_TEST_DIRNAME/.."
-  study() { make -s -f pipelines/protoearth.mk BIN="${BIN:-$PWD/bin}" N=1000 OUT="$BATS_TEST_TMPDIR/out" "$@"; }
   out=$BATS_TEST_TMPDIR/out/N1000-s1
+  study() { make -s -f pipelines/protoearth.mk BIN="${BIN:-$PWD/bin}" N=1000 OUT="$BATS_TEST_TMPDIR/out" "$out/checked" "$out/report.html" "$@"; }
   study >"$BATS_TEST_TMPDIR/said" 2>&1 || { cat "$BATS_TEST_TMPDIR/said"; false; }
   awk '$1 == "standard" { s = $6 } $1 == "miscible" { m = $6 } END { exit !(s > 0.3 && m < 0.08 && m > -0.08) }' "$out/report.txt"
   [ "$(grep -c '	ok$' "$out/report.txt")" -ge 2 ] && ! grep FAILED "$out/report.txt"
