@@ -12,8 +12,8 @@ N = $(if $(gpu),100000,3000)
 BODIES = ceres vesta moon protoearth rubble
 # orientation of the lattice, boulders, flaws
 SEED = 1
-# of the solver: continuity, sum, miscible
-DENSITY = continuity
+# of the solver: pressure_form product or squares with the density by continuity, or density sum or miscible
+FORM = product
 # a recipe of your own, under the name mine
 RECIPE =
 # where everything goes
@@ -29,8 +29,8 @@ ifneq ($(RECIPE),)
 recipe.mine = $(RECIPE)
 endif
 
-density := $(filter-out -continuity,-$(DENSITY))
-wanted := $(foreach b,$(BODIES),$(foreach s,$(SEED),$b-n$(N)-s$s$(if $(filter mkshape,$(firstword $(recipe.$b))),,$(density))))
+form := $(filter-out -product,-$(FORM))
+wanted := $(foreach b,$(BODIES),$(foreach s,$(SEED),$b-n$(N)-s$s$(if $(filter mkshape,$(firstword $(recipe.$b))),,$(form))))
 named := $(patsubst %.flaws,%,$(patsubst $(LIBRARY)/%.h5,%,$(filter $(LIBRARY)/%.h5,$(MAKECMDGOALS))))
 $(call library,$(sort $(wanted) $(named)))
 

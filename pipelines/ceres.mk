@@ -52,8 +52,8 @@ check: $(runs:%=%/checked)
 share = $(shell awk 'BEGIN { print int($1*$(N) + 0.5) }')
 icy := ceres$(if $(filter-out ice,$(ICE)),_$(subst -,_,$(notdir $(basename $(ICE)))))
 recipe.$(icy) = $(call ceres_with,$(ICE))
-target := $(icy)-n$(call share,0.6129)-s$(SEED)1
-impactor := ceres_rock-n$(call share,0.3871)-s$(SEED)2
+target := $(icy)-n$(call share,0.6129)-s$(SEED)1-squares
+impactor := ceres_rock-n$(call share,0.3871)-s$(SEED)2-squares
 bodies := $(call with_flaws,$(target) $(impactor))
 $(call library,$(target) $(impactor))
 
@@ -69,7 +69,7 @@ $(runs:%=%/start.h5): $(bodies)
 
 # The run. It continues from its checkpoint when that is of the same start and the same settings, also to a later end.
 settings := $(strip --every $(EVERY)min $(patsubst %,--set %,gravity.method=$(GRAVITY) gravity.theta=$(THETA) \
-  gravity.every=$(GRAVITY_EVERY) pressure_form=$(PRESSURE) output.checkpoint_every=60 $(SET)))
+  gravity.every=$(GRAVITY_EVERY) output.checkpoint_every=60 $(SET)))
 beyond = awk '!/^\#/ { if (!n++) t = $$2; last = $$2 } END { exit !(last > t + $(END)*60 + 1) }'
 $(call from,$(runs:%=%/run/end),$(settings) --end +$(END)min)
 $(runs:%=%/run/end): %/run/end: %/start.h5

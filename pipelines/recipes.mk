@@ -2,8 +2,10 @@
 # The library of bodies: at rest, named by their recipe, made once and shared by all studies. Included after common.mk, with OUT set:
 #   $(call library,ceres-n3000-s1 vesta-n20000-s2-miscible)   the study wants these,
 #   $(call body,ceres-n3000-s1)                               and finds this one here; $(call with_flaws,...): with flaws
-# RECIPE-nN-sSEED[-DENSITY]: a recipe below (or recipe.NAME of the study itself), particles, seed of the lattice's orientation, of
-# boulders and flaws, and the solver's density where it is not continuity. Beside NAME.h5 lie NAME.profile.tsv, its structure, and
+# RECIPE-nN-sSEED[-FORM]: a recipe below (or recipe.NAME of the study itself), particles, seed of the lattice's orientation, of
+# boulders and flaws, and the solver's form: sum or miscible, its density; squares, its pressure_form. Without FORM: density by
+# continuity and pressure_form product, which leaves layers of rock and ice at rest (squares, the solver's default, lets some lattices
+# boil: Ceres with 3000 particles to 1.1e-2 v_esc in two free-fall times, against 2.6e-5). Beside NAME.h5 lie NAME.profile.tsv, its structure, and
 # NAME.relax.tsv, what was reached; bodies.awk judges that. A recipe that was changed makes its bodies again.
 
 # Ceres-like: two thirds of basalt, a mantle of ice (Schaefer et al. 2016, A&A 590, A19); and the same mass of basalt
@@ -21,9 +23,6 @@ recipe.rubble = mkshape --size 50m,45m,40m -l basalt --rubble 4m:18m --fill 0.6
 
 # where they lie, for all studies whose OUT has the same parent
 LIBRARY ?= $(patsubst %/,%,$(dir $(OUT)))/bodies
-# the solver's form of the pressure, here and in the studies: with squares, its default, layers of rock and ice boil on some lattices
-# (Ceres, 3000 particles: rms v grows to 1.1e-2 v_esc within two free-fall times; 2.6e-5 with product)
-PRESSURE = product
 # further options of relax
 RELAX =
 
@@ -35,10 +34,10 @@ library = $(foreach b,$1,$(call from,$(call body,$b),$(call made_by,$b)))
 # The parts of a name, and the commands that make it.
 part = $(word $2,$(subst -, ,$1))
 recipe_of = $(or $(recipe.$(call part,$1,1)),$(error no recipe '$(call part,$1,1)'; there are: $(recipes)))
-number_of = $(or $(patsubst n%,%,$(filter n%,$(call part,$1,2))),$(error body '$1' is not RECIPE-nN-sSEED[-DENSITY]))
-seed_of = $(or $(patsubst s%,%,$(filter s%,$(call part,$1,3))),$(error body '$1' is not RECIPE-nN-sSEED[-DENSITY]))
+number_of = $(or $(patsubst n%,%,$(filter n%,$(call part,$1,2))),$(error body '$1' is not RECIPE-nN-sSEED[-FORM]))
+seed_of = $(or $(patsubst s%,%,$(filter s%,$(call part,$1,3))),$(error body '$1' is not RECIPE-nN-sSEED[-FORM]))
 placed = $(call recipe_of,$1) -n $(call number_of,$1) --rotate $(call seed_of,$1)
-relaxed = relax --set $(if $(call part,$1,4),density=$(call part,$1,4),pressure_form=$(PRESSURE)) --proof 2tff$(if $(strip $(RELAX)), $(strip $(RELAX)))
+relaxed = relax --set $(if $(filter sum miscible,$(call part,$1,4)),density=,pressure_form=)$(or $(call part,$1,4),product) --proof 2tff$(if $(strip $(RELAX)), $(strip $(RELAX)))
 made_by = $(placed)$(if $(filter mkshape,$(firstword $(recipe_of))), --seed $(seed_of), | $(relaxed))
 recipes = $(sort $(patsubst recipe.%,%,$(filter recipe.%,$(.VARIABLES))))
 

@@ -48,7 +48,7 @@ expect() { [ "$1" = "$2" ] || { echo "expected '$1', got '$2'"; return 1; }; }
   [ -s "$OUT/moon-n100-s1.relax.tsv" ] && [ -s "$OUT/moon-n100-s1.profile.tsv" ]
   bodies && expect '' "$(called)"
   bodies SEED='1 2' BODIES=moon && expect 'mksphere relax ' "$(called)"
-  bodies DENSITY=miscible BODIES='moon rubble' && grep -q 'relax --set density=miscible --proof 2tff' "$CALLS"
+  bodies FORM=miscible BODIES='moon rubble' && grep -q 'relax --set density=miscible --proof 2tff' "$CALLS"
   expect 'mksphere relax ' "$(called)" && [ -s "$OUT/moon-n100-s1-miscible.h5" ]
 }
 
@@ -81,11 +81,11 @@ expect() { [ "$1" = "$2" ] || { echo "expected '$1', got '$2'"; return 1; }; }
   [ "$status" != 0 ] && [[ $output == *"FAILED speed radius"* ]]
   # 1 % at 100 000 particles is 2.2 % at 10 000; sums are judged inside
   rm "$OUT"/moon* && REACHED='10000 0.001 0.02 0.5 106' bodies BODIES=moon
-  rm "$OUT"/moon* && REACHED='100000 0.001 0.3 0.005 106' bodies BODIES=moon DENSITY=sum
+  rm "$OUT"/moon* && REACHED='100000 0.001 0.3 0.005 106' bodies BODIES=moon FORM=sum
   run bodies BODIES=pluto
   [ "$status" != 0 ] && [[ $output == *"no recipe 'pluto'; there are: ceres ceres_rock moon"* ]]
   run bodies "$OUT/moon-100-1.h5"
-  [ "$status" != 0 ] && [[ $output == *"'moon-100-1' is not RECIPE-nN-sSEED[-DENSITY]"* ]]
+  [ "$status" != 0 ] && [[ $output == *"'moon-100-1' is not RECIPE-nN-sSEED[-FORM]"* ]]
 }
 
 @test "studies at once: one makes the body, the other waits for it" {

@@ -92,7 +92,7 @@ analysis='clumps conserved fof histo render report track '
 @test "a step that fails leaves no result and stops the study" {
   mock
   FAILING=relax run study
-  [ "$status" != 0 ] && [ ! -e "$OUT/bodies/ceres-n61-s11.h5" ]
+  [ "$status" != 0 ] && [ ! -e "$OUT/bodies/ceres-n61-s11-squares.h5" ]
   called
   FAILING=fof run study
   [ "$status" != 0 ] && [ ! -e "$run_dir/fragments.tsv" ] && [ -e "$run_dir/run/end" ]
