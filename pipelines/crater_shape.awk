@@ -2,12 +2,12 @@
 # columns of x, y, z [m] of the target's dense particles (x, y > 0) | awk -v dx=SPACING -v sheet=snap_NNNN.h5 -f crater_shape.awk
 # One line: number of the snapshot (1 microsecond each), depth and radius of the crater [mm]. Depth: in each column of one spacing, within
 # three spacings of the axis, from the bottom upwards to the first gap of two spacings; their mean (the axis of a lattice is a place of its own).
-# Radius: in the first two layers below the surface, from outside inwards to such a gap, mean over the 4 sectors of a quarter.
+# Radius: in the first two layers below the surface, from 3 cm inwards to such a gap, mean over the 4 sectors of a quarter.
 BEGIN { pi = atan2(0, -1); sectors = 4 }
 /^#/ { next }
 { r = sqrt($1^2 + $2^2); a = int($1/dx); b = int($2/dx); c = a "," b }
 (a + 0.5)^2 + (b + 0.5)^2 < 9 { z[c, ++n[c]] = $3 }
-$3 < 0.3*dx && $3 > -2.2*dx { s = int(atan2($2, $1)/(pi/2)*sectors); rim[s, ++many[s]] = r }
+$3 < 0.3*dx && $3 > -2.2*dx && r < 0.03 { s = int(atan2($2, $1)/(pi/2)*sectors); rim[s, ++many[s]] = r }
 function sort(a, s, n,   i, j, x) { for (i = 2; i <= n; i++) { x = a[s, i]; for (j = i - 1; j && a[s, j] > x; j--) a[s, j + 1] = a[s, j]; a[s, j + 1] = x } }
 END {
   for (c in n) {

@@ -5,7 +5,7 @@
 
 # particles along the bar, 1 cm apart, periodic across (78 neighbours: there the sum of r grad W is 1 to 4e-4 on this lattice); rates of strain [1/s]; Weibull pair
 N = $(call by_size,32,64,128)
-ACROSS = $(call by_size,8,12,24)
+ACROSS = $(call by_size,8,12,12)
 RATES = 1e2 3e2 1e3
 K = 5e34
 M = 8.5

@@ -21,7 +21,7 @@ study = N$(N)-s1/a46.2-v1.731
 results = geometry.tsv fragments.tsv after.tsv run/conserved.tsv
 drawn = $(if $(shell command -v gnuplot),cut.png damage.png masses.png spectrum.png)
 
-$(call from,$(OUT)/report.txt,N=$(N) END=$(END) THETA=$(THETA) SET='$(strip $(SET))' ANGLE=46.2 SPEED=1.731 ICE=ice_lange)
+$(call from,$(OUT)/report.txt,N=$(N) END=$(END) THETA=$(THETA) SET="$(strip $(SET))" ANGLE=46.2 SPEED=1.731 ICE=ice_lange)
 $(OUT)/report.txt: | $(programs)
 	@mkdir -p $(@D)
 	$(MAKE) --no-print-directory -f $(here)ceres.mk OUT=$(OUT)/ceres $(vars) $(patsubst %,$(OUT)/ceres/$(study)/%,report.txt $(drawn))

@@ -38,19 +38,19 @@ $(runs:%=%/start.h5): $(OUT)/%/start.h5: $(OUT)/pair.h5
 # damage at 5 microseconds, speed away from the impact at the end.
 fof = fof --max-damage 0.999 --link 1.01 --min-particles 3
 of = columns -f ParticleIDs -f $1 -w 'BodyID == 0'
-$(call from,$(runs:%=%/end.tsv),--end 50e-6 --every 2.5e-6 $(call sets,gravity.method=none $(SET)))
+$(call from,$(runs:%=%/end.tsv),--end 50e-6 --every 5e-6 $(call sets,gravity.method=none $(SET)))
 $(runs:%=%/end.tsv): %/end.tsv: %/start.h5
 	$(call run,$*/run)
-	for s in $*/run/snap_*.h5; do $(fof) $$s | awk '$$1 == 1 { m = $$3 } END { print m/0.305363 }'; done | awk '{ print (NR - 1)*2.5 "\t" $$1 }' > $*/core.tsv
-	$(fof) $*/run/snap_0020.h5 > $@
+	for s in $*/run/snap_*.h5; do $(fof) $$s | awk '$$1 == 1 { m = $$3 } END { print m/0.305363 }'; done | awk '{ print (NR - 1)*5 "\t" $$1 }' > $*/core.tsv
+	$(fof) $*/run/snap_0010.h5 > $@
 	join -j 1 <($(call of,'sqrt((Coordinates.y - 30mm)^2 + Coordinates.x^2 + Coordinates.z^2)' -f 'sqrt((Coordinates.y + 30mm)^2 + Coordinates.x^2 + Coordinates.z^2)') $< | grep -v '^#' | sort) \
-	  <(join -j 1 <($(call of,Damage) $*/run/snap_0002.h5 | grep -v '^#' | sort) <($(call of,-Velocities.y) $*/run/snap_0020.h5 | grep -v '^#' | sort)) | tr ' ' '\t' > $*/places.tsv
+	  <(join -j 1 <($(call of,Damage) $*/run/snap_0001.h5 | grep -v '^#' | sort) <($(call of,-Velocities.y) $*/run/snap_0010.h5 | grep -v '^#' | sort)) | tr ' ' '\t' > $*/places.tsv
 	$(remember)
 
 results = $(foreach r,$(runs),$(addprefix $r/,end.tsv places.tsv run/conserved.tsv))
 $(OUT)/verdict.tsv: $(here)nakamura.awk $(runs:%=%/end.tsv)
 	$(call judge,nakamura.awk) -v n=$(N) -v spectrum=$(OUT)/spectrum.tsv $(results) > $@
 $(OUT)/damage.png: $(OUT)/verdict.tsv
-	render --view slice --color Damage --range 0:1 -C 0,0,0 --extent 75mm --size 1200x560 --panels 2x1 -o $@ $(firstword $(runs))/run/snap_0002.h5 $(firstword $(runs))/run/snap_0020.h5
+	render --view slice --color Damage --range 0:1 -C 0,0,0 --extent 75mm --size 1200x560 --panels 2x1 -o $@ $(firstword $(runs))/run/snap_0001.h5 $(firstword $(runs))/run/snap_0010.h5
 $(OUT)/spectrum.png: $(here)nakamura.gp $(OUT)/verdict.tsv
 	gnuplot -c $< '$(cases)' $(OUT) $@
