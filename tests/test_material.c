@@ -208,7 +208,8 @@ static void check_style(const char *name, const char *text)
       "form",       "source",     "a",         "b",          "alpha",    "beta",
       "rho_min",    "m",          "crack",     "shear",      "friction", "friction_damaged",
       "weak_limit", "weak_alpha", "weak_beta", "weak_gamma", "alpha_0",  "alpha_e",
-      "alpha_t",    "n1",         "n2",        "gamma",      "K",        "n"};
+      "alpha_t",    "n1",         "n2",        "gamma",      "K",        "n",
+      "G"};
   config_t cfg;
   Err err;
   assert_int_equal(cfg_open_text(&cfg, text, name, &err), 0);
