@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # What every experiment that judges itself shares: `include $(here)lab.mk` after its variables. It ends with OUT/verdict.tsv, one row a
-# claim (verdict.awk), printed beside the pictures; `all` fails when a claim does. `make validate` runs them all.
+# claim (verdict.awk), printed, and OUT/report.html, the same with the pictures; `all` fails when a claim does. `make validate` runs
+# them all.
 
 include $(here)common.mk
 
@@ -28,8 +29,11 @@ endef
 judge = awk -f $(here)verdict.awk -f $(here)$1
 
 .SECONDEXPANSION:
-all: $(OUT)/verdict.tsv $$(if $$(shell command -v gnuplot),$$(pictures))
+drawn = $(if $(shell command -v gnuplot),$(pictures))
+all: $(OUT)/verdict.tsv $$(drawn) $(OUT)/report.html
 	@awk -f $(here)verdict.awk -v show=1 $<
+$(OUT)/report.html: $(OUT)/verdict.tsv $$(drawn)
+	@report -o $@ -t '$(experiment), $(SIZE)' -r 100 -T $<:Claims $(patsubst %,-p %,$(filter %.png,$^))
 
 clean:
 	rm -rf $(OUT)
