@@ -5,114 +5,8 @@
 #ifndef PASSES_H
 #define PASSES_H
 
-#include "../physics/pair.h"
 #include "fold.h"
-#include "hold.h"
-#include "rich.h"
-
-/* Why a step is as short as it is; what conserved.tsv and the log name. limits.h has what each is.
- */
-/* clang-format off */
-#define LIMIT_NAMES(L) \
-  L(CFL, "cfl") L(ACCELERATION, "acceleration") L(DENSITY, "density") \
-  L(ENERGY, "energy") L(SMOOTHING, "smoothing") L(STRESS, "stress") L(DAMAGE, "damage") \
-  L(DISTENTION, "distention") L(PRESSURE, "pressure")
-/* clang-format on */
-enum {
-#define LIMIT_ENUM(CAPITAL, NAME) LIMIT_##CAPITAL,
-  LIMIT_NAMES(LIMIT_ENUM)
-#undef LIMIT_ENUM
-      LIMITS
-};
-
-/* Numbers of a step: the same for all particles. */
-typedef struct {
-  double dt;                                        /* s */
-  int density, energy, smoothing, strength, damage; /* modes, see param.h */
-  int volumes;                                      /* pressure_form product */
-  double neighbours, h_min, h_max, density_floor, energy_floor;
-  double self;                                     /* sigma w(0): the kernel's centre */
-  double cfl, acceleration, step_density;          /* factors of the limits (limits.h) */
-  double limit[LIMITS];                            /* of those that are off unless asked for: 0 */
-  double energy_least, stress_least, damage_least; /* what counts at least in them */
-  int limited;                                     /* any of them is on */
-  double few, many, width, dilation; /* overcorrected h: neighbours, largest |div v| [1/s] */
-  double outer;                      /* pressure outside [Pa] */
-  double damping;                    /* 1/s; 0: none */
-  int damping_radial, framed;        /* framed: the frames of the bodies are needed */
-  double spin_rate, spin[3];         /* 1/s; rad/s: the rotation that bodies are brought to */
-  double centre[BODIES][3], velocity[BODIES][3],
-      omega[BODIES][3]; /* frames that are damped towards */
-  struct {
-    double x, v, rho, u, s, crack;
-  } error;           /* weights of the errors of rk2-adaptive, over the tolerance */
-  int slot, rates;   /* saved arrays to work on; whether rates are saved instead of the state */
-  double weight[3];  /* of the saved rates 1..3 in a combination */
-  double pull;       /* weight of gravity in this kick, over that of the other forces, minus 1 */
-  int viscous, rich; /* physical viscosity; pair terms of pair_rich.h */
-  Rich more;
-  Fluid fluid;
-  Deposit deposit;
-  Hold hold;
-} Step;
-
-enum {
-  BAD_NONE,
-  BAD_POSITION,
-  BAD_VELOCITY,
-  BAD_DENSITY,
-  BAD_ENERGY,
-  BAD_SMOOTHING,
-  BAD_ACCELERATION,
-  BAD_STRESS
-};
-
-/* passes_jaumann: dS/dt = 2 mu (e - tr e/3) + R S - S R, R = (g - g^T)/2. Corrects the sign of 001
- * eq. 9 (docs/theory.md 9). */
-HD Sym passes_jaumann(Sym s, const double *g, double mu)
-{
-  double rxy = 0.5 * (g[1] - g[3]), rxz = 0.5 * (g[2] - g[6]), ryz = 0.5 * (g[5] - g[7]);
-  double tr = (g[0] + g[4] + g[8]) / 3;
-  Sym d;
-  d.xx = 2 * mu * (g[0] - tr) + 2 * (rxy * s.xy + rxz * s.xz);
-  d.yy = 2 * mu * (g[4] - tr) + 2 * (ryz * s.yz - rxy * s.xy);
-  d.zz = 2 * mu * (g[8] - tr) - 2 * (rxz * s.xz + ryz * s.yz);
-  d.xy = mu * (g[1] + g[3]) + rxy * (s.yy - s.xx) + rxz * s.yz + ryz * s.xz;
-  d.xz = mu * (g[2] + g[6]) + rxz * (s.zz - s.xx) + rxy * s.yz - ryz * s.xy;
-  d.yz = mu * (g[5] + g[7]) + ryz * (s.zz - s.yy) - rxy * s.xz - rxz * s.xy;
-  return d;
-}
-
-/* passes_rotate: Q S Q^T with Q = exp(R dt), R the spin of the velocity gradient g: exact for
- * rigid rotation (Rodrigues). */
-HD Sym passes_rotate(Sym s, const double *g, double dt)
-{
-  double w[3] = {0.5 * (g[7] - g[5]), 0.5 * (g[2] - g[6]), 0.5 * (g[3] - g[1])}, q[9], t[9];
-  double rate = sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]), c = cos(rate * dt), f, v;
-  const double m[9] = {s.xx, s.xy, s.xz, s.xy, s.yy, s.yz, s.xz, s.yz, s.zz};
-  if (rate == 0) return s;
-  f = sin(rate * dt) / rate, v = (1 - c) / (rate * rate);
-  q[0] = c + v * w[0] * w[0], q[1] = v * w[0] * w[1] - f * w[2], q[2] = v * w[0] * w[2] + f * w[1];
-  q[3] = v * w[0] * w[1] + f * w[2], q[4] = c + v * w[1] * w[1], q[5] = v * w[1] * w[2] - f * w[0];
-  q[6] = v * w[0] * w[2] - f * w[1], q[7] = v * w[1] * w[2] + f * w[0], q[8] = c + v * w[2] * w[2];
-  for (int a = 0; a < 3; a++)
-    for (int b = 0; b < 3; b++)
-      t[3 * a + b] = q[3 * a] * m[b] + q[3 * a + 1] * m[3 + b] + q[3 * a + 2] * m[6 + b];
-  s.xx = t[0] * q[0] + t[1] * q[1] + t[2] * q[2], s.xy = t[0] * q[3] + t[1] * q[4] + t[2] * q[5];
-  s.xz = t[0] * q[6] + t[1] * q[7] + t[2] * q[8], s.yy = t[3] * q[3] + t[4] * q[4] + t[5] * q[5];
-  s.yz = t[3] * q[6] + t[4] * q[7] + t[5] * q[8], s.zz = t[6] * q[6] + t[7] * q[7] + t[8] * q[8];
-  return s;
-}
-
-/* passes_elastic: S after dt: half the rotation, Hooke's law for the deviatoric strain, the
- * other half. Second order; a pure rotation is exact. */
-HD Sym passes_elastic(Sym s, const double *g, double mu, double dt)
-{
-  Sym e = passes_strain_rate(g);
-  double third = (e.xx + e.yy + e.zz) / 3;
-  e.xx -= third, e.yy -= third, e.zz -= third;
-  return passes_rotate(tensor_axpy(passes_rotate(s, g, 0.5 * dt), 2 * mu * dt, e), g, 0.5 * dt);
-}
+#include "record.h"
 
 /* passes_work: (-p div v + S:e)/rho [W/kg] of i with p and S as damage leaves them (001 eq. 5, 20,
  * 21). */
@@ -132,55 +26,11 @@ HD double passes_deposit(const State *s, const Step *k, long i)
   return k->deposit.rate != 0 ? k->dt * fluid_deposit(&k->deposit, &s->x[3 * i]) : 0;
 }
 
-/* passes_pack: p and S C (of a viscous fluid its stress times C) as the force loop takes them: p
- * (of walls of a fluid never negative) above the pressure outside, which thereby acts on free
- * surfaces. C, the inverse moment matrix of loop A,
- * is turned by the spin over dt, from loop A's positions to those of the force loop. As C also
- * corrects the gradient that drives S, the two are adjoint; and as sum V_j r W' C = 1, the stress
- * exerts no torque on a neighbourhood (Bonet & Lok 1999, CMAME 180, 97). */
-HD void passes_pack(const State *s, const Step *k, long i, int solid, double dt)
-{
-  double left = damage_shear(&s->material[s->mat[i]].damage, s->damage[i]), *t = &s->t[9 * i];
-  double size = k->volumes ? 1 : (k->density == 2 ? s->m[i] : 1) / s->rho[i]; /* 2: miscible */
-  double p = s->p[i] < 0 ? (1 - s->damage[i]) * s->p[i] : s->p[i];
-  if (k->hold.walls && p < 0 && !solid && hold_wall(s, &k->hold, i)) p = 0;
-  s->push[i] = (p - k->outer) * size * size;
-  for (int d = 0; d < 9 && !solid && s->t; d++) t[d] = 0;
-  if (solid || k->viscous) {
-    Sym c = passes_rotate(passes_stress(&s->cm[6 * i]), &s->g[9 * i], dt);
-    Sym dev = k->viscous && !solid ? fluid_stress(s, &k->fluid, i)
-                                   : tensor_scale(passes_stress(&s->s[6 * i]), left);
-    if (k->rich && k->more.squares) dev = tensor_scale(dev, 1 / (s->rho[i] * s->rho[i]));
-    tensor_product(dev, c, t);
-  }
-  if (k->rich) rich_extra(s, &k->more, i, left, solid, k->dt);
-}
-
-/* passes_body: the record of i for the force loop. */
-HD PairBody passes_body(const State *s, long i)
-{
-  const double *v = &s->vp[3 * i], *t = &s->t[9 * i], rho = s->rho[i];
-  PairBody b = {(real)v[0], (real)v[1],      (real)v[2],     (real)s->h[i],  (real)s->m[i],
-                (real)rho,  (real)(1 / rho), (real)s->cs[i], (real)s->cl[i], (real)s->push[i],
-                (real)t[0], (real)t[1],      (real)t[2],     (real)t[3],     (real)t[4],
-                (real)t[5], (real)t[6],      (real)t[7],     (real)t[8]};
-  return b;
-}
-
 /* passes_outer: the part of du/dt [W/kg] that the force loop lacks: work against the pressure
  * outside, at a density. */
 HD double passes_outer(const State *s, const Step *k, long i, double rho)
 {
   return k->outer > 0 ? -k->outer * s->divv[i] / rho : 0;
-}
-
-/* passes_turn_body: the record of what is seen in a mirror: vectors times w, tensors times w w. */
-HD void passes_turn_body(PairBody *b, const double w[3])
-{
-  const real x = (real)w[0], y = (real)w[1], z = (real)w[2];
-  b->vx *= x, b->vy *= y, b->vz *= z;
-  b->dxy *= x * y, b->dxz *= x * z, b->dyx *= y * x, b->dyz *= y * z, b->dzx *= z * x,
-      b->dzy *= z * y;
 }
 
 /* passes_kick: the acceleration of a kick, component j: gravity counts 1 + k->pull times. */
