@@ -3,8 +3,8 @@
 /^#/ { if (FILENAME ~ /conserved/) for (k = 1; k <= NF; k++) { name = $k; sub(/^# /, "", name); sub(/\[.*/, "", name); at[name] = k }; next }
 FILENAME ~ /conserved/ { e = $at["E_total"]; if (first == "") first = e; last = e; next }
 FNR == 1 { which = FILENAME; sub(/\/shape.tsv$/, "", which); sub(/.*Y/, "", which); rows = 0 }
-{ rows++; d[which, rows] = $2; r[which, rows] = $3; all[which] = rows }
-function mean(a, y,   k, s) { for (k = all[y] - 4; k <= all[y]; k++) s += a[y, k]/5; return s }
+{ rows++; t[which, rows] = $1; d[which, rows] = $2; r[which, rows] = $3; all[which] = rows }
+function mean(a, y,   k, s, n) { for (k = all[y]; t[y, k] > t[y, all[y]] - 4.9; k--) { s += a[y, k]; n++ } return s/n }
 END {
   title("Aluminium into aluminium at 7 km/s, spacing " dx " mm")
   depth = mean(d, 276); radius = mean(r, 276); soft = mean(d, 100)

@@ -4,10 +4,11 @@
 # Schaefer et al. (2016), section 4.3 (its radius of 6.35 mm is the diameter, its strength of 100 MPa that of soft aluminium); equation of
 # Cour-Palais and Christiansen for the depth: 12.8 mm in 6061-T6, 18.3 mm in 1100-O. At these sizes the depth hangs on resolution and viscosity.
 
-# spacing of the particles [mm], size of the block (width and depth in mm; a quarter of it is calculated), end [microseconds]
+# spacing of the particles [mm], size of the block (width and depth in mm; a quarter of it is calculated), end, time between snapshots [microseconds]
 DX = $(call by_size,1.25,1,0.63)
 BLOCK = $(call by_size,60 40,100 100,100 100)
 END = $(call by_size,25,30,30)
+EVERY = $(call by_size,1,2.5,2.5)
 # yield strengths [MPa]
 STRENGTH = 276 100
 # artificial viscosity: these are the alpha, beta = 1, 2 of codes whose h is half the support; the paper prints 0.5 and 0 for the full support
@@ -39,11 +40,11 @@ $(runs:%=%/start.h5): $(OUT)/Y%/start.h5: | $(programs)
 	    -s 'Velocities.z=if(BodyID == 1, -7km/s, 0m/s)' -k 'Coordinates.x > 0' -o $(@D)/half.h5
 	alter -k 'Coordinates.y > 0' $(@D)/half.h5 -o $@
 	$(remember)
-$(call from,$(runs:%=%/shape.tsv),--end $(END)e-6 --every 1e-6 $(call sets,gravity.method=none $(quarter) $(SET)))
+$(call from,$(runs:%=%/shape.tsv),--end $(END)e-6 --every $(EVERY)e-6 $(call sets,gravity.method=none $(quarter) $(SET)))
 $(runs:%=%/shape.tsv): %/shape.tsv: %/start.h5
 	$(call run,$*/run)
 	for s in $*/run/snap_*.h5; do columns -f Coordinates.x -f Coordinates.y -f Coordinates.z -w 'BodyID == 0 && Density > 2000kg/m^3' $$s | \
-	  awk -v dx=$(DX)e-3 -v sheet=$$s -f $(here)crater_shape.awk; done > $@
+	  awk -v dx=$(DX)e-3 -v every=$(EVERY) -v sheet=$$s -f $(here)crater_shape.awk; done > $@
 	$(remember)
 
 $(OUT)/verdict.tsv: $(here)crater.awk $(runs:%=%/shape.tsv)

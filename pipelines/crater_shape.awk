@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# columns of x, y, z [m] of the target's dense particles (x, y > 0) | awk -v dx=SPACING -v sheet=snap_NNNN.h5 -f crater_shape.awk
-# One line: number of the snapshot (1 microsecond each), depth and radius of the crater [mm]. Depth: in each column of one spacing, within
+# columns of x, y, z [m] of the target's dense particles (x, y > 0) | awk -v dx=SPACING -v every=T -v sheet=snap_NNNN.h5 -f crater_shape.awk
+# One line: time of the snapshot [microseconds, T between two], depth and radius of the crater [mm]. Depth: in each column of one spacing, within
 # three spacings of the axis, from the bottom upwards to the first gap of two spacings; their mean (the axis of a lattice is a place of its own).
 # Radius: in the first two layers below the surface, from 3 cm inwards to such a gap, mean over the 4 sectors of a quarter.
 BEGIN { pi = atan2(0, -1); sectors = 4 }
@@ -22,5 +22,5 @@ END {
     mean += (rim[s, k] - dx/2)/sectors
   }
   sub(/.*snap_/, "", sheet)
-  printf "%d\t%.3f\t%.3f\n", sheet, 1e3*(depth > 0 ? depth : 0), 1e3*(depth > dx ? mean : 0)
+  printf "%g\t%.3f\t%.3f\n", sheet*every, 1e3*(depth > 0 ? depth : 0), 1e3*(depth > dx ? mean : 0)
 }

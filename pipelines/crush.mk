@@ -4,7 +4,7 @@
 # Carroll & Holt (1972), J. Appl. Phys. 43, 1626: alpha = 1 + (alpha_0 - 1) ((p_s - p)/(p_s - p_e))^2 between p_e and p_s.
 
 # particles of the rod, of 1 m
-N = $(call by_size,50,400,2000)
+N = $(call by_size,50,200,1000)
 # speed of the piston [m/s]: far below that of sound, for waves to even out, and as a shock
 SPEEDS = 20 200
 # how far it goes in: pores are gone after a quarter

@@ -5,7 +5,7 @@
 # Massidda, THINS report on the parallelization of SPH, section 6.1; slow_water: c = 50 m/s.
 
 # spacing [m]
-DX = $(call by_size,0.04,0.01,0.0025)
+DX = $(call by_size,0.04,0.01,0.005)
 # until [s]: the 5.37 m tank, the other
 END = $(call by_size,1.2,2.6,2.6)
 END_FRONT = 0.8

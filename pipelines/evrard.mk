@@ -22,14 +22,14 @@ $(OUT)/start.h5: | $(programs)
 	  alter -s 'Radius=max(|Coordinates|, 1e-6m)' $(foreach c,x y z,-s 'Coordinates.$c=Coordinates.$c*sqrt(Radius/1m)') \
 	    -s 'Density=1kg/m^3/(2*3.14159265358979*max((Radius/1m)^1.5, 0.01))' -s 'SmoothingLength=cbrt(57*3/(4*3.14159265358979)*Masses/Density)' > $@
 	$(remember)
-$(call from,$(OUT)/energies.tsv,--end 1.5 --every 0.1 $(call sets,gravity.G=1 density=sum output.log_every=1 $(SET)))
+$(call from,$(OUT)/energies.tsv,--end 1.5 --every 0.8 $(call sets,gravity.G=1 density=sum output.log_every=1 $(SET)))
 $(OUT)/energies.tsv: $(OUT)/start.h5
 	$(call run,$(OUT)/run)
 	cp $(OUT)/run/conserved.tsv $@
 	$(remember)
 $(OUT)/profile.tsv: $(OUT)/energies.tsv
 	columns -f '|Coordinates|' -f Density -f Pressure -f '(Coordinates.x*Velocities.x+Coordinates.y*Velocities.y+Coordinates.z*Velocities.z)/max(|Coordinates|, 1e-9m)' \
-	  $(OUT)/run/snap_0008.h5 > $@
+	  $(OUT)/run/snap_0001.h5 > $@
 
 $(OUT)/verdict.tsv: $(here)evrard.awk $(OUT)/energies.tsv
 	$(call judge,evrard.awk) -v n=$(N) $(OUT)/energies.tsv > $@

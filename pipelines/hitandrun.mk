@@ -19,13 +19,13 @@ include $(here)lab.mk
 pictures = $(OUT)/cut.png $(OUT)/damage.png $(OUT)/masses.png $(OUT)/spectrum.png
 study = N$(N)-s1/a46.2-v1.731
 results = geometry.tsv fragments.tsv after.tsv run/conserved.tsv
-drawn = $(if $(shell command -v gnuplot),cut.png damage.png masses.png spectrum.png)
+copies = $(if $(shell command -v gnuplot),cut.png damage.png masses.png spectrum.png)
 
 $(call from,$(OUT)/report.txt,N=$(N) END=$(END) THETA=$(THETA) SET="$(strip $(SET))" ANGLE=46.2 SPEED=1.731 ICE=ice_lange)
 $(OUT)/report.txt: | $(programs)
 	@mkdir -p $(@D)
-	$(MAKE) --no-print-directory -f $(here)ceres.mk OUT=$(OUT)/ceres $(vars) $(patsubst %,$(OUT)/ceres/$(study)/%,report.txt $(drawn))
-	cp $(patsubst %,$(OUT)/ceres/$(study)/%,report.txt $(drawn)) $(OUT)
+	$(MAKE) --no-print-directory -f $(here)ceres.mk OUT=$(OUT)/ceres $(vars) $(patsubst %,$(OUT)/ceres/$(study)/%,report.txt $(copies))
+	cp $(patsubst %,$(OUT)/ceres/$(study)/%,report.txt $(copies)) $(OUT)
 	$(remember)
 $(OUT)/verdict.tsv: $(here)hitandrun.awk $(OUT)/report.txt
 	$(call judge,hitandrun.awk) -v n=$(N) $(results:%=$(OUT)/ceres/$(study)/%) > $@

@@ -5,7 +5,7 @@
 # layer, sigma = U/(2 d) sqrt(exp(-4 k d) - (1 - 2 k d)^2) (Rayleigh 1880; Chandrasekhar 1961, Hydrodynamic and Hydromagnetic Stability, ch. 11).
 
 # particles along an edge of the box of edge 1
-N = $(call by_size,64,192,768)
+N = $(call by_size,64,192,512)
 # further settings of the solver, KEY=VALUE
 SET =
 

@@ -23,7 +23,7 @@ $(OUT)/start.h5: | $(programs)
 $(call from,$(OUT)/end.tsv,--end 0.6 --every 0.6 $(call sets,gravity.method=none $(SET)))
 $(OUT)/end.tsv: $(OUT)/start.h5
 	$(call run,$(OUT)/run)
-	columns -f '|Coordinates|' -f Density -f InternalEnergy -f Pressure -f Masses -w '|Coordinates| < 0.4m' $(OUT)/run/snap_0001.h5 > $@
+	columns -e $(call by_size,1,1,8) -f '|Coordinates|' -f Density -f InternalEnergy -f Pressure -f Masses -w '|Coordinates| < 0.4m' $(OUT)/run/snap_0001.h5 > $@
 	$(remember)
 
 $(OUT)/verdict.tsv: $(here)noh.awk $(OUT)/end.tsv

@@ -3,8 +3,9 @@
 #   make -f pipelines/polytrope.mk [SIZE=small|medium|large]
 # G = M = R = 1. Lane and Emden: density pi/4 sin(pi r)/(pi r); radial wave equation, Gamma = 2: period 3.24254.
 
-# particles
+# particles; time between snapshots of the pulsation (5 periods)
 N = $(call by_size,4000,64000,1000000)
+EVERY = $(call by_size,0.162127,0.162127,0.4053175)
 # further settings of the solver, KEY=VALUE
 SET =
 
@@ -30,11 +31,11 @@ $(OUT)/settled.h5: $(OUT)/placed.h5
 	$(remember)
 $(OUT)/start.h5: $(OUT)/settled.h5
 	alter -t 0s $(foreach c,x y z,-s 'Velocities.$c=0.02*Coordinates.$c/1s') -o $@ $<
-$(call from,$(OUT)/pulse.tsv,--end 16.2127 --every 0.1621270 $(settings))
+$(call from,$(OUT)/pulse.tsv,--end 16.2127 --every $(EVERY) $(settings))
 $(OUT)/pulse.tsv: $(OUT)/start.h5
 	$(call run,$(OUT)/run)
 	for s in $(OUT)/run/snap_*.h5; do columns -f Masses -f '|Coordinates|' $$s | \
-	  awk '/^#/ { next } { m += $$1; s += $$1*$$2^2 } END { print sqrt(s/m) }'; done | awk '{ print (NR - 1)*0.162127 "\t" $$1 }' > $@
+	  awk '/^#/ { next } { m += $$1; s += $$1*$$2^2 } END { print sqrt(s/m) }'; done | awk '{ print (NR - 1)*$(EVERY) "\t" $$1 }' > $@
 	$(remember)
 $(OUT)/settled.tsv: $(OUT)/settled.h5
 	columns -f '|Coordinates|' -f Density -f Masses $< > $@

@@ -8,7 +8,7 @@
 # The figure is OUT/N5000-s1/protoearth.png, the numbers are in report.txt beside it; OUT/verdict.tsv has those of the last size.
 
 # particles
-N = $(call by_size,5000,20000,100000)
+N = $(call by_size,5000,50000,100000)
 # of the lattice's orientation
 SEED = 1
 # where everything goes

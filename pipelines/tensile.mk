@@ -7,6 +7,8 @@
 # spacing of the particles: 4800, 19 200, 120 000 of them; seeds of the flaws
 DX = $(call by_size,0.025,0.0125,0.005)
 SEEDS = 1 2 3 4
+# time between snapshots, of 6
+EVERY = $(call by_size,0.1,0.1,0.2)
 # further settings of the solver, KEY=VALUE
 SET =
 
@@ -33,19 +35,19 @@ $(OUT)/rod.h5: $(OUT)/rod.cfg | $(programs)
 $(runs:%=%/start.h5): $(OUT)/s%/start.h5: $(OUT)/rod.h5
 	@mkdir -p $(@D)
 	weibull --seed $* $< | alter -s 'Velocities.x=if(BodyID == 0, 0, if(BodyID == 1, -5e-3, 5e-3))*1m/s' -o $@
-settings = --end 6 --every 0.1 $(call sets,gravity.method=none kernel=cubic_spline smoothing.mode=fixed viscosity.alpha=1 viscosity.beta=2 \
+settings = --end 6 --every $(EVERY) $(call sets,gravity.method=none kernel=cubic_spline smoothing.mode=fixed viscosity.alpha=1 viscosity.beta=2 \
   walls.body1=-5e-3$(,)0$(,)0 walls.body2=5e-3$(,)0$(,)0 $(SET))
 # Over time: the most damaged particle's damage, its place; mean stress at |x| = 0.6.
 $(call from,$(runs:%=%/crack.tsv),$(settings))
 $(runs:%=%/crack.tsv): %/crack.tsv: %/start.h5
 	$(call run,$*/run)
 	for s in $*/run/snap_*.h5; do columns -f Coordinates.x -f Coordinates.y -f Damage -f 'if(Pressure < 0Pa, 1 - Damage, 1)*Pressure' -f '(1 - Damage)*DeviatoricStress.xx' -f Velocities.x $$s | \
-	  awk -v dx=$(DX) -f $(here)crack.awk; done | awk '{ print (NR - 1)*0.1 "\t" $$0 }' > $@
+	  awk -v dx=$(DX) -f $(here)crack.awk; done | awk '{ print (NR - 1)*$(EVERY) "\t" $$0 }' > $@
 	$(remember)
 
 $(OUT)/verdict.tsv: $(here)tensile.awk $(runs:%=%/crack.tsv)
 	$(call judge,tensile.awk) -v dx=$(DX) $(runs:%=%/crack.tsv) > $@
 $(OUT)/damage.png: $(OUT)/verdict.tsv
-	render --color Damage --range 0:1 --size 1200x700 --panels 2x2 --extent 3.4m -o $@ $(runs:%=%/run/snap_0060.h5)
+	render --color Damage --range 0:1 --size 1200x700 --panels 2x2 --extent 3.4m -o $@ $(foreach r,$(runs),$$(ls $r/run/snap_*.h5 | tail -1))
 $(OUT)/stress.png: $(here)tensile.gp $(OUT)/verdict.tsv
 	gnuplot -c $< '$(SEEDS)' $(OUT) $@
