@@ -10,6 +10,8 @@ SHELL = bash
 .SECONDARY:
 .SUFFIXES:
 MAKEFLAGS += --no-builtin-rules
+# Sorting and numbers are the same everywhere.
+export LC_ALL = C
 
 # The programs: those of the checkout or prefix that this file lies in, else those on PATH. A checkout without is built first.
 root := $(abspath $(dir $(lastword $(MAKEFILE_LIST)))..)

@@ -5,7 +5,7 @@ FNR == 1 { way = FILENAME ~ /in.tsv$/ ? "in" : "out"; if (way == "in") { speed =
 /^#/ { snapshot++; next }
 way == "in" && snapshot == 1 { rest[speed] = max(rest[speed], max(abs($4*1.25/2700 - 1), abs($1)/26.7e9)) }
 {
-  if (way == "in" && $1 >= 0.9999*$2 && $1 > 2e8 && $1 < 2e9) { points[speed]++; off[speed] = max(off[speed], abs($3 - curve($1))) }
+  if (way == "in" && $1 >= (1 - 1e-9)*$2 && $1 > 2e8 && $1 < 2e9) { points[speed]++; off[speed] = max(off[speed], abs($3 - curve($1))) }
   above[speed] = max(above[speed], $3 - curve($1))
   if ($5 in last) rise[speed] = max(rise[speed], $3 - last[$5])
   last[$5] = $3

@@ -23,7 +23,7 @@ $(runs:%=%/start.h5): $(OUT)/n%/start.h5: | $(programs)
 	mkshape -d 2 --shape box --size 1m,1m --spacing $$(awk 'BEGIN { printf "%.12g", 1/$* }')m --neighbours 80 --lattice grid -l gas:rho=1 | \
 	  alter -s 'Coordinates.y=Coordinates.y + 0.5m' -s 'InternalEnergy=1.5J/kg*($(pressure))' \
 	    -s 'Velocities.x=-Coordinates.y/1s*($(speed))' -s 'Velocities.y=Coordinates.x/1s*($(speed))' > $@
-$(call from,$(runs:%=%/end.tsv),--end 1 --every 0.1 $(call sets,gravity.method=none density=sum kernel=wendland_c4 viscosity.balsara=true \
+$(call from,$(runs:%=%/end.tsv),--end 1 --every 0.1 $(call sets,gravity.method=none precision=double density=sum kernel=wendland_c4 viscosity.balsara=true \
   boundary.x=periodic boundary.y=periodic boundary.low=-0.5$(,)-0.5$(,)0 boundary.high=0.5$(,)0.5$(,)0 $(SET)))
 $(runs:%=%/end.tsv): $(OUT)/n%/end.tsv: $(OUT)/n%/start.h5
 	$(call run,$(@D)/run)
