@@ -144,6 +144,14 @@ bench-gpu: all $(gpu_benches:%=$B/bench/%)
 	@for b in $(gpu_benches:%=$B/bench/%); do $$b || exit 1; done
 	@for n in 200000 1000000; do for c in solid hydro; do $B/bench/step $$n $$c cuda || exit 1; done; done
 
+# What each law and setting costs, as TSV: make bench-cost N=1000000 DEVICE=cuda >costs.tsv; bench/cost -p costs.tsv puts it into
+# bench/compare.md. K: of the settings that match.
+N =
+DEVICE = cpu
+K = *
+bench-cost: all
+	@PATH=$(abspath $(BIN)):$$PATH bench/cost $(N:%=-n %) -d $(DEVICE) -k '$(K)' $B/bench/step
+
 # Every experiment that judges itself, at SIZE; check-physics: the small ones, as a test.
 SIZE = small
 validate: all
@@ -180,12 +188,13 @@ help:
 	@echo 'make check-gpu  the same on a GPU'
 	@echo 'make validate   run the experiments and write out/validate/SIZE/validation.html; SIZE=small|medium|large'
 	@echo 'make bench      check, then time, the hot passes; make bench-gpu on a GPU'
+	@echo 'make bench-cost what each law and setting costs; N=1000000 DEVICE=cuda K=strength*'
 	@echo 'make lint       format, lengths, exported names'
 	@echo 'make docs       the generated tables of docs/'
 	@echo 'make install PREFIX=/usr/local'
 	@echo 'make asan=1 check     the same with address and undefined-behaviour sanitizers'
 
 FORCE:
-.PHONY: all check validate check-physics check-gpu check-host bench bench-gpu lint docs deps install clean help FORCE
+.PHONY: all check validate check-physics check-gpu check-host bench bench-gpu bench-cost lint docs deps install clean help FORCE
 .DELETE_ON_ERROR:
 .SECONDARY:
