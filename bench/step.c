@@ -29,13 +29,13 @@ static struct {
 /* clang-format off */
 static const Opt OPTS[] = {
   {"config",  'c', OPT_TEXT,   NULL,      "FILE", "settings from a run.cfg before those of the command line", &o.config},
-  {"shape",   0,   OPT_CHOICE, "spheres", "spheres|box", "two spheres that touch, or a box from 0 to 400 km whose lowest tenth is body 1", &o.shape},
+  {"shape",   0,   OPT_CHOICE, "spheres", "spheres|box", "two that touch, or a box from 0 to 400 km, its lowest tenth body 1", &o.shape},
   {"steps",   0,   OPT_INT,    "0",       "N", "steps to time; 0: 20, on a GPU 100 (10 of very many particles)", &o.steps},
   {"warm",    0,   OPT_INT,    "-1",      "N", "steps before them; -1: a fifth as many", &o.warm},
   {"samples", 0,   OPT_INT,    "100",     "N", "particles to check against all pairs; 0: none", &o.samples},
   {"sums",    0,   OPT_FLAG,   NULL,      NULL, "the sums of a line of conserved.tsv after each step", &o.sums},
   {"brief",   'b', OPT_FLAG,   NULL,      NULL, "the time of a step, not of its passes", &o.brief},
-  {"turn",    0,   OPT_TEXT,   NULL,      "FILE", "from the device's first use on one process at a time, the one that has locked FILE", &o.turn},
+  {"turn",    0,   OPT_TEXT,   NULL,      "FILE", "one process at a time uses the device, the one that has locked FILE", &o.turn},
   {NULL, 0, OPT_FLAG, NULL, NULL, NULL, NULL}};
 
 static const OptProgram PROGRAM = {
