@@ -51,6 +51,7 @@ int backend_idle(const Sim *sim, const char *member)
          (strcmp(member, "lifted") == 0 && !(sim->par.energy_floor > -1e300)) ||
          (strcmp(member, "pull0") == 0 && !(sim->par.gravity_tolerance > 0)) ||
          (strncmp(member, "old_", 4) == 0 && !sim->memory) ||
+         (strcmp(member, "active") == 0 && !(sim->solid && sim->par.damage)) ||
          ((strcmp(member, "alpha") == 0 || strcmp(member, "dalpha") == 0) && !sim->porous) ||
          rich_idle(sim, member);
 }

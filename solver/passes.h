@@ -275,6 +275,7 @@ HD void pass_save(const State *s, const Step *k, long i)
   to->h[i] = k->rates ? (k->smoothing ? s->h[i] * passes_swell(s, k, i) : 0) : s->h[i];
   to->crack[i] = k->rates ? s->dcrack[i] : cbrt(s->damage[i]);
   if (s->alpha) to->alpha[i] = s->alpha[i];
+  if (to->active && !k->rates) to->active[i] = s->nact[i];
 }
 
 /* remember: the rates of saved[slot] are those of the step before for the next step. recall: these
@@ -307,7 +308,8 @@ HD void pass_recall(const State *s, const Step *k, long i)
                                            PASSES_TERM(3, MEMBER, J))                              \
                                 : 0))
 
-/* combine: state = saved[0] + dt (weight . saved rates 1..3). */
+/* combine: state = saved[0] + dt (weight . saved rates 1..3); with dt = 0 saved[0] itself, active
+ * flaws too, whatever a step that failed has activated. */
 HD void pass_combine(const State *s, const Step *k, long i)
 {
   double h, crack = PASSES_SUM(crack, i);
@@ -323,6 +325,7 @@ HD void pass_combine(const State *s, const Step *k, long i)
   h = PASSES_SUM(h, i);
   s->h[i] = h < k->h_min ? k->h_min : h > k->h_max ? k->h_max : h;
   if (s->alpha) s->alpha[i] = s->saved[0].alpha[i];
+  if (s->saved[0].active && !(k->dt > 0)) s->nact[i] = (int32_t)s->saved[0].active[i];
   if (k->damage) {
     double limit = s->nflaw[i] > 0 ? (double)s->nact[i] / s->nflaw[i] : 0,
            old = s->saved[0].crack[i], grown = crack * crack * crack;

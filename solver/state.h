@@ -35,11 +35,11 @@
   W(double,  extra,  8, "PairExtra, of runs with more pair terms")
 /* clang-format on */
 
-/* What an integrator may put aside: the evolved quantities, or rates of them; the fields old_* are
- * rates of the step before. */
+/* What an integrator may put aside: the evolved quantities (active: nact), or rates of them; the
+ * fields old_* are rates of the step before. */
 /* clang-format off */
 #define RATE_FIELDS(V) V(x, 3) V(v, 3) V(rho, 1) V(u, 1) V(s, 6) V(crack, 1) V(h, 1)
-#define SAVED_FIELDS(V) RATE_FIELDS(V) V(alpha, 1)
+#define SAVED_FIELDS(V) RATE_FIELDS(V) V(alpha, 1) V(active, 1)
 /* clang-format on */
 enum { STATE_SLOTS = 4 };
 

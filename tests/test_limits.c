@@ -171,6 +171,44 @@ static void landing(void **state)
   part_free(p);
 }
 
+/* A step that fails leaves no trace: flaws that only it has activated are not active afterwards. The
+ * state is that of a run whose first step is as short at once. */
+static void rejected(void **state)
+{
+  enum { FLAWS = 64 };
+  Parts *p[2];
+  double dt = 0;
+  (void)state;
+  for (int run = 0; run < 2; run++) {
+    Param par = lab_param("gravity.method=none", "integrator=rk2-adaptive", "step.error=1e-5",
+                          "step.cfl=2", "step.density=10", "smoothing.mode=fixed", NULL);
+    Sim sim;
+    Err err;
+    SimStep done;
+    p[run] = ball_of(BRITTLE, 0, .05);
+    p[run]->flaws = FLAWS * p[run]->n;
+    p[run]->nflaw = malloc(sizeof(int32_t) * (size_t)p[run]->n);
+    p[run]->flaw = malloc(sizeof(double) * (size_t)p[run]->flaws);
+    for (long i = 0; i < p[run]->n; i++) p[run]->nflaw[i] = FLAWS;
+    for (long i = 0; i < p[run]->flaws; i++) p[run]->flaw[i] = 2e-6 * (double)(i % FLAWS + 1);
+    if (run) par.step_max = dt;
+    lab_open(&sim, &par, p[run]);
+    if (sim_advance(&sim, 1e9, &done, &err)) fail_msg("%s", err.text);
+    assert_string_equal(sim_limit_name(done.limit), run ? "max" : "error");
+    dt = done.dt;
+    lab_store(&sim, p[run]);
+    sim_close(&sim);
+  }
+  long active = 0;
+  for (long i = 0; i < p[0]->n; i++) active += p[0]->nact[i];
+  print_message("after a step of %.3g: %ld flaws active\n", dt, active);
+  assert_true(active > 0 && active < p[0]->flaws / 2);
+  assert_memory_equal(p[0]->nact, p[1]->nact, (size_t)p[0]->n * sizeof *p[0]->nact);
+  assert_memory_equal(p[0]->damage, p[1]->damage, (size_t)p[0]->n * sizeof *p[0]->damage);
+  assert_memory_equal(p[0]->x, p[1]->x, 3 * (size_t)p[0]->n * sizeof *p[0]->x);
+  part_free(p[0]), part_free(p[1]);
+}
+
 static void broken(int what, const char *message)
 {
   Parts *p = ball_of(JELLY, 1, 0);
@@ -233,7 +271,7 @@ static void input(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(names), cmocka_unit_test(landing),
-                                     cmocka_unit_test(breakdown), cmocka_unit_test(input)};
+                                     cmocka_unit_test(rejected), cmocka_unit_test(breakdown), cmocka_unit_test(input)};
   omp_set_num_threads(1);
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
