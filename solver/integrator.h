@@ -10,7 +10,8 @@
 /* clang-format off */
 #define INTEGRATORS(X) \
   X("leapfrog", leapfrog) X("rk2-adaptive", rk2_adaptive) X("rk3-tvd", rk3_tvd) \
-  X("predictor-corrector", predictor_corrector) X("ab2", ab2) X("euler", euler)
+  X("predictor-corrector", predictor_corrector) X("heun-rk4", heun_rk4) X("ab2", ab2) \
+  X("euler", euler)
 /* clang-format on */
 
 struct integrator {
@@ -27,6 +28,9 @@ struct integrator {
   /* potential: phi at the state that step has reached; changes nothing that a later step reads.
    * NULL: step leaves it so. */
   int (*potential)(Sim *sim, Err *err);
+  /* substeps: into how many steps of their own point masses may divide one of the particles; 0:
+   * they take the same, by the same scheme. */
+  int substeps;
 };
 
 #define INTEGRATOR_EXTERN(WORD, NAME) extern const struct integrator integrator_##NAME;

@@ -132,7 +132,8 @@ static const CfgRow step[] = {
   {"first", CFG_REAL, AT(step_first), "s", "0", 0, 1e300, "largest first step; 0: no such limit"},
   {"min", CFG_REAL, AT(step_min), "s", "1e-30", 0, 1e300, "a step below this stops the run"},
   {"max", CFG_REAL, AT(step_max), "s", "0", 0, 1e300, "largest step; 0: no such limit"},
-  {"points", CFG_REAL, AT(step_points), "1", "0.03", 1e-6, 1, "of the least sqrt(r^3/(G m)) between two point masses"},
+  {"points", CFG_REAL, AT(step_points), "1", "0.03", 1e-6, 1,
+   "of the least sqrt(r^3/(G m)) between two point masses; of heun-rk4 their substep, its step may have eight"},
 };
 static const CfgRow spin[] = {
   {"rate", CFG_REAL, AT(spin_rate), "1/s", "0", 0, 1e300, "torque on each body: d(omega)/dt = rate (omega_target - omega); 0: none"},

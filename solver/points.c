@@ -44,6 +44,7 @@ static void pass_one(PointMasses *q, int pass, const Step *k, int i, int d)
   case PASS_SAVE:
     q->x[k->slot][i][d] = k->rates ? p->v[d] : p->x[d];
     q->v[k->slot][i][d] = k->rates ? q->acc[i][d] : p->v[d];
+    q->was_felt[k->slot][i][d] = q->felt[i][d];
     break;
   case PASS_COMBINE: p->x[d] = combined(k, q->x, i, d), p->v[d] = combined(k, q->v, i, d); break;
   case PASS_REMEMBER: p->old_x[d] = q->x[k->slot][i][d], p->old_v[d] = q->v[k->slot][i][d]; break;
@@ -59,24 +60,32 @@ void points_pass(Sim *sim, int pass, const Step *k)
     for (int d = 0; d < 3 && !q->p[i].fixed; d++) pass_one(q, pass, k, i, d);
 }
 
-/* From j to i. */
-static double between(const PointMass *i, const PointMass *j, double d[3])
+/* From the place x to y. */
+static double between(const double x[3], const double y[3], double d[3])
 {
-  for (int k = 0; k < 3; k++) d[k] = j->x[k] - i->x[k];
+  for (int k = 0; k < 3; k++) d[k] = y[k] - x[k];
   return sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
 }
 
-/* The pull of each pair: equal and opposite forces; the larger softening of both. */
-static void pull_each_other(PointMasses *q, double G)
+/* Places and velocities of all, or their rates. */
+typedef struct {
+  double x[POINTS][3], v[POINTS][3];
+} Orbits;
+
+/* The pull of each pair at these places, added to acc: equal and opposite forces; the larger
+ * softening of both. Returns the energy [J]. */
+static double pull_each_other(const PointMasses *q, double G, const Orbits *at, double (*acc)[3])
 {
+  double energy = 0;
   for (int i = 0; i < q->n; i++)
     for (int j = 0; j < i; j++) {
       const PointMass *a = &q->p[i], *b = &q->p[j];
       double d[3], f[3] = {0, 0, 0};
-      between(a, b, d);
-      q->energy += a->m * softening_pull(G * b->m, fmax(a->h, b->h), d, f);
-      for (int k = 0; k < 3; k++) q->acc[i][k] += f[k], q->acc[j][k] -= f[k] * (a->m / b->m);
+      between(at->x[i], at->x[j], d);
+      energy += a->m * softening_pull(G * b->m, fmax(a->h, b->h), d, f);
+      for (int k = 0; k < 3; k++) acc[i][k] += f[k], acc[j][k] -= f[k] * (a->m / b->m);
     }
+  return energy;
 }
 
 int points_sinks(const Sim *sim)
@@ -114,15 +123,18 @@ int points_exchange(Sim *sim, Err *err)
   PointMasses *q = &sim->points;
   PointReaction r[POINTS];
   PointField field;
+  Orbits at;
   if (!q->n) return 0;
   points_field(sim, &field);
   if (sim->b->points(sim, &field, r, err)) return -1;
   q->energy = 0;
   for (int i = 0; i < q->n; i++) {
     q->energy += r[i].energy;
-    for (int d = 0; d < 3; d++) q->acc[i][d] = q->p[i].deaf ? 0 : -r[i].f[d] / q->p[i].m;
+    memcpy(at.x[i], q->p[i].x, sizeof at.x[i]);
+    for (int d = 0; d < 3; d++)
+      q->acc[i][d] = q->felt[i][d] = q->p[i].deaf ? 0 : -r[i].f[d] / q->p[i].m;
   }
-  pull_each_other(q, sim->par.G);
+  q->energy += pull_each_other(q, sim->par.G, &at, q->acc);
   return 0;
 }
 
@@ -132,7 +144,7 @@ static double nearest(const Sim *sim, int i, double *speed)
   const PointMasses *q = &sim->points;
   double least = INFINITY, d[3];
   for (int j = 0; j < q->n; j++) {
-    const double r = j == i ? INFINITY : fmax(between(&q->p[i], &q->p[j], d), q->p[i].h);
+    const double r = j == i ? INFINITY : fmax(between(q->p[i].x, q->p[j].x, d), q->p[i].h);
     if (!(r < least)) continue;
     least = r, *speed = sqrt(sim->par.G * (q->p[i].m + q->p[j].m) / r);
   }
@@ -154,7 +166,8 @@ double points_error(const Sim *sim, double dt)
   return worst;
 }
 
-double points_limit(const Sim *sim)
+/* step.points times the least time of an orbit of two. */
+static double shortest(const Sim *sim)
 {
   const PointMasses *q = &sim->points;
   double least = INFINITY, speed;
@@ -163,6 +176,57 @@ double points_limit(const Sim *sim)
     if (!q->p[i].fixed && r > 0) least = fmin(least, r / speed);
   }
   return sim->par.step_points * least;
+}
+
+double points_limit(const Sim *sim)
+{
+  const int substeps = integrator_of(sim->par.integrator)->substeps;
+  return (substeps ? substeps : 1) * shortest(sim);
+}
+
+/* Rates at `at`, when this share of the step is over. */
+static void rates(const Sim *sim, const Orbits *at, double share, int from, int to, Orbits *out)
+{
+  const PointMasses *q = &sim->points;
+  memcpy(out->x, at->v, sizeof out->x);
+  for (int i = 0; i < q->n; i++)
+    for (int d = 0; d < 3; d++)
+      out->v[i][d] = (1 - share) * q->was_felt[from][i][d] + share * q->was_felt[to][i][d];
+  pull_each_other(q, sim->par.G, at, out->v);
+  for (int i = 0; i < q->n; i++)
+    for (int d = 0; d < 3 && q->p[i].fixed; d++) out->x[i][d] = out->v[i][d] = 0;
+}
+
+/* out = a + dt b; out may be a. */
+static void move(int n, const Orbits *a, double dt, const Orbits *b, Orbits *out)
+{
+  for (int i = 0; i < n; i++)
+    for (int d = 0; d < 3; d++)
+      out->x[i][d] = a->x[i][d] + dt * b->x[i][d], out->v[i][d] = a->v[i][d] + dt * b->v[i][d];
+}
+
+void points_orbit(Sim *sim, double dt, int from, int to)
+{
+  static const double weight[4] = {1. / 6, 2. / 6, 2. / 6, 1. / 6}, node[5] = {0, .5, .5, 1, 0};
+  PointMasses *q = &sim->points;
+  Orbits now, next, at, rate;
+  for (int i = 0; i < q->n; i++) {
+    memcpy(q->p[i].x, q->x[0][i], sizeof q->p[i].x);
+    memcpy(now.x[i], q->x[0][i], sizeof now.x[i]), memcpy(now.v[i], q->v[0][i], sizeof now.v[i]);
+  }
+  const long steps = 1 + (long)(dt / shortest(sim));
+  const double part = dt / (double)steps;
+  for (long step = 0; step < steps; step++) {
+    at = next = now;
+    for (int k = 0; k < 4; k++) {
+      rates(sim, &at, ((double)step + node[k]) / (double)steps, from, to, &rate);
+      move(q->n, &next, weight[k] * part, &rate, &next);
+      move(q->n, &now, node[k + 1] * part, &rate, &at);
+    }
+    now = next;
+  }
+  for (int i = 0; i < q->n; i++)
+    memcpy(q->p[i].x, now.x[i], sizeof now.x[i]), memcpy(q->p[i].v, now.v[i], sizeof now.v[i]);
 }
 
 void points_sums(const Sim *sim, Sums *s)

@@ -34,6 +34,7 @@ typedef struct {
   int n;
   PointMass p[POINTS];
   double acc[POINTS][3];                                       /* of this evaluation */
+  double felt[POINTS][3], was_felt[STATE_SLOTS][POINTS][3];    /* what of it particles pull */
   double x[STATE_SLOTS][POINTS][3], v[STATE_SLOTS][POINTS][3]; /* as Saved */
   double energy; /* potential energy among them and with the particles [J] */
 } PointMasses;
@@ -87,12 +88,18 @@ void points_pass(Sim *sim, int pass, const Step *k);
  * their own. Backends call it when they evaluate gravity. */
 int points_exchange(Sim *sim, Err *err);
 
+/* points_orbit: after the passes of a step of length dt from saved[0] this takes the masses there
+ * by the Runge-Kutta scheme of fourth order, in equal substeps of at most step.points times what
+ * points_limit has. The particles' pull goes linearly from that of the evaluation saved as slot
+ * `from` to that of slot `to`; its impulse is that of their mean, whatever the substeps. */
+void points_orbit(Sim *sim, double dt, int from, int to);
+
 /* points_error: for rk2-adaptive: the largest error of a step of length dt over what a tolerance of
  * 1 would allow: positions by the distance to the next mass, speeds by that of an orbit there. */
 double points_error(const Sim *sim, double dt);
 
 /* points_limit: step.points times the smallest sqrt(r^3/(G (m_1 + m_2))) of two masses [s];
- * infinite without two. */
+ * infinite without two; that many times as long as the integrator lets them take substeps. */
 double points_limit(const Sim *sim);
 
 /* points_sums: adds the masses to the sums over the particles, spins and potential energies

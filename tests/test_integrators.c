@@ -51,7 +51,8 @@ static const struct {
   const char *name;
   void (*step)(Decay *d, double z, double w);
 } schemes[] = {{"leapfrog", leapfrog}, {"euler", euler},        {"predictor-corrector", midpoint},
-               {"rk3-tvd", third},     {"rk2-adaptive", third}, {"ab2", ab2}};
+               {"rk3-tvd", third},     {"rk2-adaptive", third}, {"ab2", ab2},
+               {"heun-rk4", midpoint}};
 
 static char *setting(int integrator, char *text, size_t size)
 {

@@ -171,8 +171,8 @@ static void landing(void **state)
   part_free(p);
 }
 
-/* A step that fails leaves no trace: flaws that only it has activated are not active afterwards. The
- * state is that of a run whose first step is as short at once. */
+/* A step that fails leaves no trace: flaws that only it has activated are not active afterwards.
+ * The state is that of a run whose first step is as short at once. */
 static void rejected(void **state)
 {
   enum { FLAWS = 64 };
@@ -271,7 +271,8 @@ static void input(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(names), cmocka_unit_test(landing),
-                                     cmocka_unit_test(rejected), cmocka_unit_test(breakdown), cmocka_unit_test(input)};
+                                     cmocka_unit_test(rejected), cmocka_unit_test(breakdown),
+                                     cmocka_unit_test(input)};
   omp_set_num_threads(1);
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -27,4 +27,5 @@ const struct integrator integrator_ab2 = {
     "ab2", "Adams-Bashforth predictor, trapezoidal corrector, two evaluations a step",
     2,     4,
     1,     integrator_begin,
-    step,  integrator_potential};
+    step,  integrator_potential,
+    0};

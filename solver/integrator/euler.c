@@ -16,4 +16,5 @@ static int step(Sim *sim, double *dt, Err *err)
 const struct integrator integrator_euler = {"euler", "forward Euler, one evaluation a step",
                                             1,       2,
                                             0,       integrator_begin,
-                                            step,    integrator_potential};
+                                            step,    integrator_potential,
+                                            0};

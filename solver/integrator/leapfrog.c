@@ -62,4 +62,4 @@ static int step(Sim *sim, double *dt, Err *err)
 }
 
 const struct integrator integrator_leapfrog = {
-    "leapfrog", "staggered leapfrog, one evaluation a step", 2, 0, 0, start, step, NULL};
+    "leapfrog", "staggered leapfrog, one evaluation a step", 2, 0, 0, start, step, NULL, 0};

@@ -22,4 +22,5 @@ const struct integrator integrator_predictor_corrector = {
     0,
     integrator_begin,
     step,
-    integrator_potential};
+    integrator_potential,
+    0};

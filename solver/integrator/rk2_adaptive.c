@@ -44,4 +44,5 @@ const struct integrator integrator_rk2_adaptive = {
     0,
     integrator_begin,
     step,
-    integrator_potential};
+    integrator_potential,
+    0};

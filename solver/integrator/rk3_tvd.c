@@ -18,4 +18,5 @@ const struct integrator integrator_rk3_tvd = {
     "rk3-tvd", "TVD Runge-Kutta of third order, three evaluations",
     3,         4,
     0,         integrator_begin,
-    step,      integrator_potential};
+    step,      integrator_potential,
+    0};
