@@ -136,6 +136,10 @@ check-host: $(c_tests:%=$B/host/tests/%)
 check-gpu: all $(filter-out $B/gpu/tests/test_host_%,$(tests:%=$B/gpu/tests/%))
 	@BIN=$(abspath $(BIN)) B=$(abspath $B/gpu) BRECCIA_TEST_DEVICE=cuda tests/run '$(T)'
 
+# Those of CUDA code on a GPU under compute-sanitizer, small: TOOLS='memcheck racecheck', LIMIT=150 s each, JOBS at a time.
+check-sanitizer: $(patsubst %,$B/gpu/tests/%,$(filter test_cuda%,$(tests)))
+	@B=$(abspath $B/gpu) TOOLS='$(TOOLS)' LIMIT='$(LIMIT)' JOBS='$(JOBS)' tests/sanitize '$(T)'
+
 bench: all
 	@for b in $(benches:%=$B/bench/%); do PATH=$(abspath $(BIN)):$$PATH $$b || exit 1; done
 
@@ -186,6 +190,7 @@ help:
 	@echo 'make deps       install what the build needs (apt-get)'
 	@echo 'make check      run all tests; make check T=eos runs those that match'
 	@echo 'make check-gpu  the same on a GPU'
+	@echo 'make check-sanitizer  the tests of CUDA code under compute-sanitizer, on a GPU'
 	@echo 'make validate   run the experiments and write out/validate/SIZE/validation.html; SIZE=small|medium|large'
 	@echo 'make bench      check, then time, the hot passes; make bench-gpu on a GPU'
 	@echo 'make bench-cost what each law and setting costs; N=1000000 DEVICE=cuda K=strength*'
@@ -195,6 +200,6 @@ help:
 	@echo 'make asan=1 check     the same with address and undefined-behaviour sanitizers'
 
 FORCE:
-.PHONY: all check validate check-physics check-gpu check-host bench bench-gpu bench-cost lint docs deps install clean help FORCE
+.PHONY: all check validate check-physics check-gpu check-host check-sanitizer bench bench-gpu bench-cost lint docs deps install clean help FORCE
 .DELETE_ON_ERROR:
 .SECONDARY:

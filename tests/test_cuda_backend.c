@@ -9,6 +9,7 @@
 #include "../solver/reduce.h"
 #include "folder.h"
 #include "laws.h"
+#include "small.h"
 #include "tabulated.h"
 
 /* Settings of the extra pair terms. */
@@ -510,14 +511,14 @@ static Parts *run(const char *device, double dx, int steps, const char *precisio
 /* The largest distance of a particle to itself in two runs, and what differs in sum. */
 static void compare_runs(const char *precision, double place, double total)
 {
-  Parts *a = run("cpu", 0.3, 200, precision), *b = run("cuda", 0.3, 200, precision);
+  const int steps = (int)small_or(200, 5);
+  Parts *a = run("cpu", 0.3, steps, precision), *b = run("cuda", 0.3, steps, precision);
   double worst = 0, da = sum_of(a->damage, a->n), db = sum_of(b->damage, b->n);
   for (long i = 0; i < 3 * a->n; i++) worst = fmax(worst, fabs(a->x[i] - b->x[i]));
-  print_message(
-      "%s: 200 steps, %ld particles, damage %.3f: places differ by %.1e, damage by %.1e\n",
-      precision, a->n, da / (double)a->n, worst, fabs(da - db) / da);
-  assert_true(da > 0.05 * (double)a->n);
-  assert_true(worst < place && fabs(da - db) < total * da);
+  print_message("%s: %d steps, %ld particles, damage %.3f: places differ by %.1e, damage by %.1e\n",
+                precision, steps, a->n, da / (double)a->n, worst, fabs(da - db) / da);
+  assert_true(da > 0.05 * (double)a->n || steps < 200);
+  assert_true(worst < place && fabs(da - db) <= total * da);
   part_free(a), part_free(b);
 }
 
@@ -533,13 +534,13 @@ static void bits(void **state)
 {
   Parts *first = run("cuda", 0.4, 10, "precision=mixed");
   (void)state;
-  for (int k = 0; k < 9; k++) {
+  for (long k = small_or(9, 1); k > 0; k--) {
     Parts *p = run("cuda", 0.4, 10, "precision=mixed");
     for (int f = 0; f < part_field_count; f++) {
       const void *u = part_array(first, &part_fields[f]), *v = part_array(p, &part_fields[f]);
       assert_true(!u == !v);
       if (u && memcmp(u, v, (size_t)p->n * (size_t)part_fields[f].size))
-        fail_msg("run %d: %s differs", k, part_fields[f].name);
+        fail_msg("run %ld: %s differs", k, part_fields[f].name);
     }
     part_free(p);
   }

@@ -13,6 +13,7 @@
 extern "C" {
 #include <cmocka.h>
 }
+#include "small.h"
 
 static const int PRECISIONS[] = {PARAM_MIXED, PARAM_DOUBLE};
 
