@@ -253,12 +253,13 @@ static Parts *particles(const char *count, const char *what, int flaws)
   return p;
 }
 
-/* Waits until this process is the only one that has locked the file; it keeps it to its end. */
-static void take_turn(const char *path)
+/* Waits until this process is the only one that has locked the file, which is returned. */
+static int take_turn(const char *path)
 {
   const int file = open(path, O_RDWR | O_CREAT, 0666);
   struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
   if (file < 0 || fcntl(file, F_SETLKW, &whole) < 0) err_die("cannot lock '%s'", path);
+  return file;
 }
 
 static void report(Sim *sim, const char *what, long flaws)
@@ -283,7 +284,7 @@ static void report(Sim *sim, const char *what, long flaws)
 
 int main(int argc, char **argv)
 {
-  int given;
+  int given, turn = -1;
   char **input = opt_parse(&PROGRAM, argc, argv, &given);
   const char *what = given > 1 ? input[1] : "solid";
   Param par;
@@ -293,7 +294,7 @@ int main(int argc, char **argv)
   if (strcmp(what, "hydro") == 0) need(param_set(&par, "strength.on=false", &err));
   for (int k = 3; k < given; k++) need(param_set(&par, input[k], &err));
   Parts *p = particles(given > 0 ? input[0] : "50000", what, par.strength && par.damage);
-  if (o.turn) take_turn(o.turn);
+  if (o.turn) turn = take_turn(o.turn);
   need(sim_open(&sim, &par, p, given > 2 ? input[2] : "cpu", &err) ||
        conflict_unused(&par, &sim, &err));
   if (unchecked(&sim))
@@ -301,6 +302,7 @@ int main(int argc, char **argv)
   else
     check(&sim);
   report(&sim, what, p->flaws);
+  if (turn >= 0) close(turn);
   sim_close(&sim);
   part_free(p);
   err_close_stdout();
