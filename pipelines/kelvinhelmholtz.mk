@@ -33,7 +33,7 @@ $(OUT)/contrast.h5: | $(programs)
 	  -s 'Velocities.x=1m/s*(BodyID - 0.5)' -s 'Velocities.y=0.1m/s*sin(4*3.14159265358979*Coordinates.x/1m)*($(bumps))' > $@
 	$(remember)
 
-settings = $(call sets,gravity.method=none kernel=wendland_c4 viscosity.balsara=true boundary.x=periodic boundary.y=periodic \
+settings = $(call sets,gravity.method=none precision=double kernel=wendland_c4 viscosity.balsara=true boundary.x=periodic boundary.y=periodic \
   boundary.low=-0.5$(,)-0.5$(,)0 boundary.high=0.5$(,)0.5$(,)0 $(SET))
 # The disturbance: sums of v_y sin(kx), v_y cos(kx) within one half-width of the layers.
 k = 4*3.14159265358979*Coordinates.x/1m

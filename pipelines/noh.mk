@@ -5,6 +5,8 @@
 
 # particles in the sphere of radius 1
 N = $(call by_size,33000,500000,8000000)
+# behind the shock, where the lattice breaks up, the density by continuity drifts with the number of steps; sums are off before it with few particles
+FORM = density=$(call by_size,continuity,sum,sum)
 # further settings of the solver, KEY=VALUE
 SET =
 
@@ -20,7 +22,7 @@ $(OUT)/start.h5: | $(programs)
 	mkshape --size 1m,1m,1m -n $(vars) -l gas:rho=1 -u 1e-6 | \
 	  alter $(foreach c,x y z,-s 'Velocities.$c=if(|Coordinates| > 0m, -1m/s*Coordinates.$c/|Coordinates|, 0m/s)') > $@
 	$(remember)
-$(call from,$(OUT)/end.tsv,--end 0.6 --every 0.6 $(call sets,gravity.method=none $(SET)))
+$(call from,$(OUT)/end.tsv,--end 0.6 --every 0.6 $(call sets,gravity.method=none $(FORM) $(SET)))
 $(OUT)/end.tsv: $(OUT)/start.h5
 	$(call run,$(OUT)/run)
 	columns -e $(call by_size,1,1,8) -f '|Coordinates|' -f Density -f InternalEnergy -f Pressure -f Masses -w '|Coordinates| < 0.4m' $(OUT)/run/snap_0001.h5 > $@

@@ -4,10 +4,10 @@
 #   make -f pipelines/rings.mk [SIZE=small|medium|large]
 # Units: density and sound speed of the rubber (852 m/s), centimetre. Radii 3 and 4, each ring moves at 0.059 of the speed of sound.
 
-# spacing of the particles: 4392, 7800 (the paper's), 110 000 of them
-DX = $(call by_size,0.1,0.075,0.02)
+# spacing of the particles: 4392, 7800 (the paper's), 17 600 of them
+DX = $(call by_size,0.1,0.075,0.05)
 # end (the rings part at 120), times of the pictures
-END = $(call by_size,140,200,250)
+END = $(call by_size,140,200,200)
 FRAMES = 0 60 120 $(END)
 # further settings of the solver, KEY=VALUE
 SET =

@@ -5,6 +5,8 @@
 
 # particles along an edge of the box of edge 1
 N = $(call by_size,32,50,128)
+# by continuity, hot particles of the cavity keep their density once they have no neighbours left, and their energy with it
+FORM = density=sum smoothing.mode=neighbours
 # further settings of the solver, KEY=VALUE
 SET =
 
@@ -22,7 +24,7 @@ $(OUT)/start.h5: | $(programs)
 	  alter -s 'Coordinates.z=Coordinates.z + 0.5' \
 	    -s 'InternalEnergy=InternalEnergy + $(N)^3/(2*3.14159265359)^1.5*exp(-($(N)*|Coordinates|/1m)^2/2)*1J/kg' > $@
 	$(remember)
-$(call from,$(OUT)/end.tsv,--end 0.05 --every 0.05 $(call sets,gravity.method=none kernel=cubic_spline step.cfl=0.3 $(SET)))
+$(call from,$(OUT)/end.tsv,--end 0.05 --every 0.05 $(call sets,gravity.method=none kernel=cubic_spline step.cfl=0.3 $(FORM) $(SET)))
 $(OUT)/end.tsv: $(OUT)/start.h5
 	$(call run,$(OUT)/run)
 	columns -f '|Coordinates|' -f Density -f '(Coordinates.x*Velocities.x+Coordinates.y*Velocities.y+Coordinates.z*Velocities.z)/|Coordinates|' \

@@ -28,7 +28,7 @@ $(OUT)/start.h5: | $(programs)
 	  alter -s 'Coordinates.y=Coordinates.y + 0.5m' -s 'BodyID=$(inside)' -s 'Density=Density*(1 + 3*BodyID)' -s 'Masses=Masses*(1 + 3*BodyID)' \
 	    -s 'InternalEnergy=1.5J/kg*2.5/(1 + 3*BodyID)' > $@
 	$(remember)
-$(foreach f,$(FORMS),$(call from,$(OUT)/$f/end.tsv,--end 4 --every 1 $(call sets,$(form.$f) gravity.method=none boundary.x=periodic boundary.y=periodic \
+$(foreach f,$(FORMS),$(call from,$(OUT)/$f/end.tsv,--end 4 --every 1 $(call sets,$(form.$f) gravity.method=none precision=double boundary.x=periodic boundary.y=periodic \
   boundary.low=-0.5$(,)-0.5$(,)0 boundary.high=0.5$(,)0.5$(,)0 $(SET))))
 $(runs:%=%/end.tsv): $(OUT)/start.h5
 	$(call run,$(@D)/run)

@@ -23,7 +23,7 @@ $(runs:%=%/start.h5): $(OUT)/n%/start.h5: | $(programs)
 	mkshape -d 2 --shape box --size 1m,1m --spacing $$(awk 'BEGIN { printf "%.12g", 1/$* }')m --neighbours 60 --lattice grid -l slow_water:rho=1000.2 | \
 	  alter -s 'Coordinates.y=Coordinates.y + 0.5m' -s 'Velocities.x=0.5m/s*sin($x)*cos($y)' -s 'Velocities.y=-0.5m/s*cos($x)*sin($y)' \
 	    -s 'Density=Density*(1 + 0.25*(0.5/50)^2*(cos(2*($x)) + cos(2*($y))))' > $@
-$(call from,$(runs:%=%/end.tsv),--end 0.05 --every 0.025 $(call sets,gravity.method=none kernel=wendland_c4 smoothing.mode=fixed \
+$(call from,$(runs:%=%/end.tsv),--end 0.05 --every 0.025 $(call sets,gravity.method=none precision=double kernel=wendland_c4 smoothing.mode=fixed \
   viscosity.alpha=0 viscosity.beta=0 viscosity.kinematic=0.5 boundary.x=periodic boundary.y=periodic \
   boundary.low=-0.5$(,)-0.5$(,)0 boundary.high=0.5$(,)0.5$(,)0 output.log_every=1 $(SET)))
 $(runs:%=%/end.tsv): $(OUT)/n%/end.tsv: $(OUT)/n%/start.h5
