@@ -18,7 +18,7 @@ static void direct_at(const Cloud *c, long i, double a[3])
     double d[3], r2 = 0;
     for (int k = 0; k < 3; k++) d[k] = c->x[3 * j + k] - c->x[3 * i + k], r2 += d[k] * d[k];
     const double r = sqrt(r2), h = 0.5 * (c->h[i] + c->h[j]), s = fmax(r, h);
-    const double f = LAB_G * c->m[j] / (s * s * s) * (r < h ? gravity_soft_force(r / h) : 1);
+    const double f = LAB_G * c->m[j] / (s * s * s) * (r < h ? softening_force(r / h) : 1);
     for (int k = 0; k < 3; k++) a[k] += f * d[k];
   }
 }

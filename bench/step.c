@@ -126,7 +126,7 @@ static void feel(const Sim *sim, const State *s, const PairRun *run, long i, lon
   const double r = sqrt(pair_dot(d, d)), h = .5 * (me.h + other.h), w = 1 / me.m;
   const double g = sim->par.gravity == PARAM_NONE ? 0
                                                   : sim->par.G * other.m / pow(fmax(r, h), 3) *
-                                                        gravity_soft_force(fmin(r / h, 1));
+                                                        softening_force(fmin(r / h, 1));
   f->a[0] += w * p.fx - g * d.x, f->a[1] += w * p.fy - g * d.y, f->a[2] += w * p.fz - g * d.z;
   f->du += w * p.work, f->work += fabs(w * p.work);
 }

@@ -127,7 +127,7 @@ static void check_gravity(const Case *c)
       const double *p = c->x + 3 * i, *q = c->x + 3 * j,
                    d[3] = {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
       double h = 0.5 * (c->h[i] + c->h[j]), r = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-      double f = c->gravity.G * c->m[j] / pow(fmax(r, h), 3) * gravity_soft_force(fmin(r / h, 1));
+      double f = c->gravity.G * c->m[j] / pow(fmax(r, h), 3) * softening_force(fmin(r / h, 1));
       for (int b = 0; b < 3; b++) s[b] -= f * d[b];
     }
     const double *a = c->a + 3 * i;

@@ -4,7 +4,7 @@
  * massless sources far away to a multiple of PAD, so that the loops are all vectors. */
 
 typedef struct {
-  REAL *x, *y, *z, *m, *h, *q[6]; /* h: half the support; q: nodes only */
+  REAL *x, *y, *z, *m, *h, *q[6]; /* h: half the support, of nodes the trace; q: nodes only */
   REAL *all;
   long n, room;
 } NAME(List);
@@ -34,7 +34,7 @@ static void NAME(pad)(NAME(List) * l)
 }
 
 static void NAME(pack_nodes)(NAME(List) * l, const Scale *s, const TreeNode *node,
-                             const int32_t *list, long n)
+                             const double *trace, const int32_t *list, long n)
 {
   const double im = 1 / s->mass, il = 1 / s->length, iq = im * il * il;
   for (long k = 0; k < n; k++) {
@@ -45,6 +45,7 @@ static void NAME(pack_nodes)(NAME(List) * l, const Scale *s, const TreeNode *nod
     l->m[k] = (REAL)(p->mass * im);
     for (int c = 0; c < 6; c++) l->q[c][k] = (REAL)(p->q[c] * iq);
   }
+  for (long k = 0; k < n && trace; k++) l->h[k] = (REAL)(trace[list[k]] * iq);
   l->n = n;
   NAME(pad)(l);
 }
@@ -58,21 +59,24 @@ static void NAME(pack_particles)(NAME(List) * l, const Scale *s, const Bodies *p
                          *restrict ph = p->h ? p->h + b : NULL;
   REAL *restrict x = l->x + l->n, *restrict y = l->y + l->n, *restrict z = l->z + l->n;
   REAL *restrict m = l->m + l->n, *restrict h = l->h + l->n;
+  const REAL half = (REAL)(s->support * hl);
   for (long i = 0; i < e - b; i++) {
     x[i] = (REAL)((px[3 * i] - ox) * il);
     y[i] = (REAL)((px[3 * i + 1] - oy) * il);
     z[i] = (REAL)((px[3 * i + 2] - oz) * il);
     m[i] = (REAL)(pm[i] * im);
   }
-  for (long i = 0; i < e - b; i++) h[i] = ph ? (REAL)(ph[i] * hl) : 0;
+  for (long i = 0; i < e - b; i++) h[i] = ph ? (REAL)(ph[i] * hl) : half;
   l->n += e - b;
 }
 
 /* Adds the field of all nodes of the list at (x, y, z) to f: acceleration and potential for G = 1.
  */
-INLINE void NAME(from_nodes)(const NAME(List) * l, REAL x, REAL y, REAL z, int what, REAL f[4])
+INLINE void NAME(from_nodes)(const NAME(List) * l, REAL x, REAL y, REAL z, REAL eps2, int what,
+                             REAL f[4])
 {
   const REAL *restrict px = l->x, *restrict py = l->y, *restrict pz = l->z, *restrict pm = l->m;
+  const REAL *restrict trace = l->h;
   const REAL *restrict q0 = l->q[0], *restrict q1 = l->q[1], *restrict q2 = l->q[2];
   const REAL *restrict q3 = l->q[3], *restrict q4 = l->q[4], *restrict q5 = l->q[5];
   const long n = l->n & ~(PAD - 1L);
@@ -80,12 +84,15 @@ INLINE void NAME(from_nodes)(const NAME(List) * l, REAL x, REAL y, REAL z, int w
 #pragma omp simd reduction(+ : ax, ay, az, phi)
   for (long j = 0; j < n; j++) {
     REAL dx = x - px[j], dy = y - py[j], dz = z - pz[j];
-    REAL i1 = 1 / NAME(root)(dx * dx + dy * dy + dz * dz), i2 = i1 * i1;
+    REAL r2 = dx * dx + dy * dy + dz * dz, d2 = what & PLUMMER ? r2 + eps2 : r2;
+    REAL i1 = 1 / NAME(root)(d2), i2 = i1 * i1;
     dx *= i1, dy *= i1, dz *= i1; /* unit vector: its powers neither overflow nor vanish */
     REAL qx = q0[j] * dx + q1[j] * dy + q2[j] * dz;
     REAL qy = q1[j] * dx + q3[j] * dy + q4[j] * dz;
     REAL qz = q2[j] * dx + q4[j] * dy + q5[j] * dz;
-    REAL qq = (qx * dx + qy * dy + qz * dz) * i2, c = pm[j] + (REAL)2.5 * qq;
+    REAL qq = (qx * dx + qy * dy + qz * dz) * i2;
+    if (what & PLUMMER) qq -= eps2 * i2 * (trace[j] * i2);
+    REAL c = pm[j] + (REAL)2.5 * qq;
     if (what & PULL) {
       ax += (qx * i2 - c * dx) * i2;
       ay += (qy * i2 - c * dy) * i2;
@@ -98,8 +105,8 @@ INLINE void NAME(from_nodes)(const NAME(List) * l, REAL x, REAL y, REAL z, int w
 
 /* The same for particles; h: half the target's support; near: the smallest s, pairs below it do not
  * act. */
-INLINE void NAME(from_particles)(const NAME(List) * l, REAL x, REAL y, REAL z, REAL h, REAL near,
-                                 int what, REAL f[4])
+INLINE void NAME(from_splines)(const NAME(List) * l, REAL x, REAL y, REAL z, REAL h, REAL near,
+                               int what, REAL f[4])
 {
   const REAL *restrict px = l->x, *restrict py = l->y, *restrict pz = l->z, *restrict pm = l->m,
                        *restrict ph = l->h;
@@ -110,9 +117,27 @@ INLINE void NAME(from_particles)(const NAME(List) * l, REAL x, REAL y, REAL z, R
     REAL dx = x - px[j], dy = y - py[j], dz = z - pz[j], hij = h + ph[j];
     REAL r = NAME(root)(dx * dx + dy * dy + dz * dz), s = r > hij ? r : hij;
     REAL i1 = 1 / (s > near ? s : near), q = r * i1, mi = pm[j] * i1;
-    REAL c = mi * (i1 * i1) * SOFT_FORCE(q);
+    REAL c = mi * (i1 * i1) * SOFTENING_FORCE(q);
     if (what & PULL) ax -= c * dx, ay -= c * dy, az -= c * dz;
-    if (what & POTENTIAL) phi -= s > near ? mi * SOFT_POTENTIAL(q) : 0;
+    if (what & POTENTIAL) phi -= s > near ? mi * SOFTENING_POTENTIAL(q) : 0;
+  }
+  f[0] += ax, f[1] += ay, f[2] += az, f[3] += phi;
+}
+
+/* The same with Plummer's softening. */
+INLINE void NAME(from_plummer)(const NAME(List) * l, REAL x, REAL y, REAL z, REAL eps2, int what,
+                               REAL f[4])
+{
+  const REAL *restrict px = l->x, *restrict py = l->y, *restrict pz = l->z, *restrict pm = l->m;
+  const long n = l->n & ~(PAD - 1L);
+  REAL ax = 0, ay = 0, az = 0, phi = 0;
+#pragma omp simd reduction(+ : ax, ay, az, phi)
+  for (long j = 0; j < n; j++) {
+    REAL dx = x - px[j], dy = y - py[j], dz = z - pz[j];
+    REAL i1 = 1 / NAME(root)(dx * dx + dy * dy + dz * dz + eps2), mi = pm[j] * i1,
+         c = mi * (i1 * i1);
+    if (what & PULL) ax -= c * dx, ay -= c * dy, az -= c * dz;
+    if (what & POTENTIAL) phi -= mi;
   }
   f[0] += ax, f[1] += ay, f[2] += az, f[3] += phi;
 }
@@ -129,8 +154,11 @@ INLINE void NAME(sums)(const Scale *s, const Bodies *p, long b, long e, const NA
     const REAL x = parts->x[k], y = parts->y[k], z = parts->z[k], h = parts->h[k], m = parts->m[k];
     REAL f[4] = {0}, g[4] = {0};
     parts->m[k] = 0; /* not on itself */
-    NAME(from_nodes)(nodes, x, y, z, what, f);
-    NAME(from_particles)(parts, x, y, z, h, (REAL)s->near, what, g);
+    NAME(from_nodes)(nodes, x, y, z, (REAL)s->eps2, what, f);
+    if (what & PLUMMER)
+      NAME(from_plummer)(parts, x, y, z, (REAL)s->eps2, what, g);
+    else
+      NAME(from_splines)(parts, x, y, z, h, (REAL)s->near, what, g);
     parts->m[k] = m;
     if (what & POTENTIAL) p->phi[i] = gp * ((double)f[3] + (double)g[3]);
     for (int d = 0; d < 3 && what & PULL; d++) p->a[3 * i + d] = ga * ((double)f[d] + (double)g[d]);
@@ -140,12 +168,17 @@ INLINE void NAME(sums)(const Scale *s, const Bodies *p, long b, long e, const NA
 static void NAME(evaluate)(const Scale *s, const Bodies *p, long b, long e,
                            const NAME(List) * nodes, NAME(List) * parts, long self)
 {
-  if (!p->a)
-    NAME(sums)(s, p, b, e, nodes, parts, self, POTENTIAL);
-  else if (p->phi)
-    NAME(sums)(s, p, b, e, nodes, parts, self, PULL | POTENTIAL);
-  else
-    NAME(sums)(s, p, b, e, nodes, parts, self, PULL);
+#define SUMS(WHAT)                                                                                 \
+  case WHAT: NAME(sums)(s, p, b, e, nodes, parts, self, WHAT); break
+  switch ((p->a ? PULL : 0) | (p->phi ? POTENTIAL : 0) | (s->eps2 > 0 ? PLUMMER : 0)) {
+    SUMS(PULL);
+    SUMS(POTENTIAL);
+    SUMS(PULL | POTENTIAL);
+    SUMS(PULL | PLUMMER);
+    SUMS(POTENTIAL | PLUMMER);
+    SUMS(PULL | POTENTIAL | PLUMMER);
+  }
+#undef SUMS
 }
 
 /* One group: lists (in single precision relative to its centre), then the sums. */
@@ -157,7 +190,7 @@ static int NAME(group)(const Scale *tree, const Bodies *p, const Tree *t, const 
   for (int d = 0; d < 3 && sizeof(REAL) < sizeof(double); d++)
     s.origin[d] = 0.5 * (g->lo[d] + g->hi[d]);
   if (NAME(reserve)(nodes, w->nodes) || NAME(reserve)(parts, w->particles)) return -1;
-  NAME(pack_nodes)(nodes, &s, t->node, w->node, w->nodes);
+  NAME(pack_nodes)(nodes, &s, t->node, p->trace, w->node, w->nodes);
   parts->n = 0;
   for (const Range *r = w->range; r < w->range + w->ranges; r++) {
     if (r->first <= g->first && g->first < r->end) self = parts->n + g->first - r->first;

@@ -44,9 +44,8 @@ int potential_open(Potential *s, const Parts *p, const long *list, long n, Err *
   return 0;
 }
 
-static int by_tree(Potential *s, const unsigned char *at, double theta, Err *err)
+static int by_tree(Potential *s, const unsigned char *at, const GravityOptions *o, Err *err)
 {
-  const GravityOptions o = {.theta = theta, .G = UNIT_G, .single = 1};
   unsigned char *only = NULL;
   if (s->tree.nodes)
     tree_refit(&s->tree, s->x, s->m, s->h);
@@ -55,7 +54,7 @@ static int by_tree(Potential *s, const unsigned char *at, double theta, Err *err
   if (at && !(only = malloc((size_t)s->n)))
     return err_set(err, "out of memory for %ld particles", s->n);
   for (long k = 0; k < s->n && at; k++) only[k] = at[s->order[k]];
-  int failed = gravity_potential(&s->tree, s->x, s->m, s->h, &o, only, s->phi, err);
+  int failed = gravity_potential(&s->tree, s->x, s->m, s->h, o, only, s->phi, err);
   free(only);
   return failed;
 }
@@ -63,14 +62,15 @@ static int by_tree(Potential *s, const unsigned char *at, double theta, Err *err
 int potential_sum(Potential *s, const unsigned char *in, const unsigned char *at, double theta,
                   double *phi, Err *err)
 {
+  const GravityOptions o = {.theta = theta, .G = UNIT_G, .single = 1};
   int failed = 0;
 #pragma omp parallel for if (s->n > DIRECT)
   for (long k = 0; k < s->n; k++)
     s->m[k] = !in || in[s->order[k]] ? s->p->m[s->list[s->order[k]]] : 0;
   if (s->n > DIRECT)
-    failed = by_tree(s, at, theta, err);
+    failed = by_tree(s, at, &o, err);
   else if (s->n > 0)
-    failed = gravity_direct(s->n, s->x, s->m, s->h, UNIT_G, NULL, s->phi, err);
+    failed = gravity_direct(s->n, s->x, s->m, s->h, &o, NULL, s->phi, err);
 #pragma omp parallel for if (s->n > DIRECT)
   for (long k = 0; k < s->n; k++)
     if (!failed && (!at || at[s->order[k]])) phi[s->order[k]] = s->phi[k];

@@ -20,8 +20,8 @@ typedef struct {
 int potential_open(Potential *s, const Parts *p, const long *list, long n, Err *err);
 
 /* potential_sum: phi [n] J/kg at those with at[k] != 0, made by those with in[k] != 0, without
- * self-energy; NULL: all. Pairs are softened with their h as in gravity.h; theta is the tree's
- * opening angle. */
+ * self-energy; NULL: all. Pairs are softened with their h as in gravity.h, whatever a run's
+ * gravity.softening was; theta is the tree's opening angle. */
 int potential_sum(Potential *s, const unsigned char *in, const unsigned char *at, double theta,
                   double *phi, Err *err);
 void potential_close(Potential *s);

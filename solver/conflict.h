@@ -20,6 +20,8 @@ static inline int conflict_mirrors(const Param *p)
 #define CONFLICTS(C) \
   C("gravity.every", "integrator", p->gravity_every > 1 && integrator_of(p->integrator) != &integrator_leapfrog, \
     "only leapfrog kicks with gravity in steps of its own") \
+  C("gravity.softening", "gravity.epsilon", \
+    p->softening == SOFTENING_PLUMMER && p->gravity != PARAM_NONE && !(p->epsilon > 0), "it needs one length for all") \
   C("escape.from", "gravity.method", p->escape_from == PARAM_DEEPEST && p->gravity == PARAM_NONE, \
     "without self-gravity no particle lies deepest") \
   C("pressure_form", "density", p->pressure == PARAM_PRODUCT && p->density != PARAM_CONTINUITY, \
@@ -60,6 +62,8 @@ static inline int conflict_mirrors(const Param *p)
   U("density_floor", p->density != PARAM_CONTINUITY && p->density_floor <= 1, "density") \
   U("gravity.theta", p->gravity != PARAM_TREE, "gravity.method") \
   U("gravity.G", p->gravity == PARAM_NONE && !s->points.n, "gravity.method") \
+  U("gravity.softening", p->gravity == PARAM_NONE, "gravity.method") \
+  U("gravity.epsilon", p->gravity == PARAM_NONE, "gravity.method") \
   U("gravity.tolerance", p->gravity_every == 1, "gravity.every") \
   U("gravity.every", p->gravity == PARAM_NONE, "gravity.method") \
   U("smoothing.neighbours", p->smoothing != PARAM_NEIGHBOURS && p->smoothing != PARAM_OVERCORRECTED, "smoothing.mode") \

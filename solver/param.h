@@ -22,8 +22,8 @@ enum { PARAM_POINTS = 32 };
 typedef struct {
   int integrator, kernel, precision, density, pressure, energy, strength, damage;
   double energy_floor, density_floor, pressure_floor, outer_pressure;
-  int gravity, gravity_every;
-  double theta, G, gravity_tolerance;
+  int gravity, gravity_every, softening;
+  double theta, G, gravity_tolerance, epsilon;
   double alpha, beta;
   int viscosity_switch, balsara;
   double viscosity_least;

@@ -99,6 +99,9 @@ static void lab_tree(GravityLab *l)
     moment[10 * k] = p->mass, q.mass = (float)(p->mass * im);
     for (int d = 0; d < 6; d++)
       moment[10 * k + 4 + d] = p->q[d], q.q[d] = (float)(p->q[d] * im * il * il);
+    for (long i = p->first; i < p->first + (long)p->count; i++)
+      for (int d = 0; d < 3; d++)
+        q.trace += (float)(l->c.m[i] * pow(l->c.x[3 * i + d] - p->com[d], 2) * im * il * il);
     pole[k] = q;
     com[k] = {q.hi[0], q.hi[1], q.hi[2], q.mass};
     link[k] = {first[k], children[k], p->first, p->count};

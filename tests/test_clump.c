@@ -216,7 +216,7 @@ static double plain_potential(const Parts *p, const unsigned char *in, long i)
     const double r = group_apart(p->x + 3 * i, p->x + 3 * j), h = 0.5 * (p->h[i] + p->h[j]);
     if (j == i || !in[j]) continue;
     const double s = fmax(r, h);
-    sum -= UNIT_G * p->m[j] / s * gravity_soft_potential(fmin(r / h, 1));
+    sum -= UNIT_G * p->m[j] / s * softening_potential(fmin(r / h, 1));
   }
   return sum;
 }

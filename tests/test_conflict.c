@@ -19,6 +19,10 @@ static const Case unused[] = {
      "gravity.G = 1 has no effect: gravity.method = none"},
     {"gravity.tolerance=0.1", "gravity.every=1", "gravity.every=2",
      "gravity.tolerance = 0.1 has no effect: gravity.every = 1"},
+    {"gravity.softening=plummer", "gravity.method=none", "gravity.method=tree gravity.epsilon=1",
+     "gravity.softening = plummer has no effect: gravity.method = none"},
+    {"gravity.epsilon=1", "gravity.method=none", "gravity.method=tree",
+     "gravity.epsilon = 1 has no effect: gravity.method = none"},
     {"gravity.every=2", "gravity.method=none", "gravity.method=tree",
      "gravity.every = 2 has no effect: gravity.method = none"},
     {"stress_form=squares", "strength.on=true", "strength.on=true",
@@ -170,6 +174,8 @@ static const Case conflicts[] = {
     {"gravity.every=2", "integrator=rk2-adaptive", "integrator=leapfrog",
      "gravity.every = 2 cannot go with integrator = rk2-adaptive: only leapfrog kicks with gravity "
      "in steps of its own"},
+    {"gravity.softening=plummer", "gravity.epsilon=0", "gravity.epsilon=1",
+     "gravity.softening = plummer cannot go with gravity.epsilon = 0: it needs one length for all"},
     {"escape.from=deepest", "gravity.method=none", "gravity.method=tree",
      "escape.from = deepest cannot go with gravity.method = none: without self-gravity no particle "
      "lies deepest"},

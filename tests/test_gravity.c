@@ -13,6 +13,13 @@
 
 #define PI 3.14159265358979323846
 static const double G = 6.67430e-11;
+/* h taken or not, one length (a tenth of most clouds) or not. */
+enum { BARE, BY_H, ONE, PLUMMER, SOFTENINGS };
+static const GravityOptions DIRECT[] = {
+    {.G = 6.67430e-11},
+    {.G = 6.67430e-11},
+    {.G = 6.67430e-11, .epsilon = 1e5},
+    {.G = 6.67430e-11, .epsilon = 1e5, .softening = SOFTENING_PLUMMER}};
 static Err err;
 
 /* d(mass)/dq of W = 21/(2 pi) (1-q)^4 (1+4q): 4 pi q^2 W */
@@ -44,12 +51,12 @@ static void softening_is_the_kernels_mass(void **state)
   for (double q = 1. / 32; q <= 1; q += 1. / 32) {
     double work, e;
     size_t n;
-    assert_true(fabs(gravity_soft_force(q) - enclosed(0, q) / (q * q * q)) < 1e-9);
+    assert_true(fabs(softening_force(q) - enclosed(0, q) / (q * q * q)) < 1e-9);
     gsl_integration_qng(&f, q, 1, 1e-12, 1e-11, &work, &e, &n);
-    assert_true(fabs(gravity_soft_potential(q) - 1 - work) < 1e-9);
+    assert_true(fabs(softening_potential(q) - 1 - work) < 1e-9);
   }
-  assert_true(gravity_soft_force(1) == 1 && gravity_soft_potential(1) == 1);
-  assert_true(gravity_soft_force(0) == 14 && gravity_soft_potential(0) == 3);
+  assert_true(softening_force(1) == 1 && softening_potential(1) == 1);
+  assert_true(softening_force(0) == 14 && softening_potential(0) == 3);
 }
 
 /* Two particles: Newton outside (h_i + h_j)/2, the kernel's mass inside; momentum to the last bit
@@ -62,10 +69,10 @@ static void two_bodies(void **state)
     const double x[6] = {1e7, -2e6, 5e5, 1e7 - 0.6 * r, -2e6, 5e5 + 0.8 * r}, s = fmax(r, 2e6),
                  q = fmin(r / 2e6, 1);
     double a[6], phi[2];
-    assert_int_equal(gravity_direct(2, x, m, h, G, a, phi, &err), 0);
-    assert_true(fabs(phi[0] / (-G * m[1] * gravity_soft_potential(q) / s) - 1) < 1e-12);
-    assert_true(fabs(phi[1] / (-G * m[0] * gravity_soft_potential(q) / s) - 1) < 1e-12);
-    const double f = G * m[1] * gravity_soft_force(q) * r / (s * s * s);
+    assert_int_equal(gravity_direct(2, x, m, h, &DIRECT[BY_H], a, phi, &err), 0);
+    assert_true(fabs(phi[0] / (-G * m[1] * softening_potential(q) / s) - 1) < 1e-12);
+    assert_true(fabs(phi[1] / (-G * m[0] * softening_potential(q) / s) - 1) < 1e-12);
+    const double f = G * m[1] * softening_force(q) * r / (s * s * s);
     assert_true(fabs(a[0] / (-0.6 * f) - 1) < 1e-9 && a[1] == 0 &&
                 fabs(a[2] / (0.8 * f) - 1) < 1e-9);
     for (int d = 0; d < 3; d++)
@@ -82,20 +89,63 @@ static double mean_size(long n, const double *a)
   return sum / (double)n;
 }
 
-/* The force is minus the gradient of the potential: a test particle moved by 1e-3 h. */
-static void force_is_the_gradient(void **state)
+/* d(mass)/ds of the sphere of Plummer (1911) with mass 1 and density 3/(4 pi eps^3) (1 + s^2)^-5/2,
+ * s = r/eps. */
+static double plummer_shell(double s, void *p)
+{
+  (void)p;
+  return 3 * s * s * pow(1 + s * s, -2.5);
+}
+
+static double integral(double (*function)(double, void *), double from, double to)
+{
+  gsl_integration_workspace *space = gsl_integration_workspace_alloc(200);
+  gsl_function f = {function, NULL};
+  double sum, e;
+  gsl_integration_qag(&f, from, to, 0, 1e-11, 200, GSL_INTEG_GAUSS61, space, &sum, &e);
+  gsl_integration_workspace_free(space);
+  return sum;
+}
+
+static double plummer_pull(double s, void *p) /* M/s^2 */
+{
+  (void)p;
+  return s > 0 ? integral(plummer_shell, 0, s) / (s * s) : 0;
+}
+
+/* Plummer's softening is the field of his sphere: its mass within r pulls, and the potential is the
+ * work to a hundred eps. With splines of one length: Newton's pull from 3 eps on, whatever h, and
+ * the same depth. */
+static void one_length_for_all(void **state)
 {
   (void)state;
+  const double m[2] = {3e20, 5e22}, h[2] = {1e9, 1}, eps = 1e5, unit = G * m[1] / eps;
+  for (double s = 0; s < 20; s = 1.3 * s + 0.1) {
+    const double x[6] = {1e6, 3e5, 0, 1e6 - 0.6 * s * eps, 3e5 + 0.8 * s * eps, 0};
+    double a[6], phi[2];
+    assert_int_equal(gravity_direct(2, x, m, h, &DIRECT[PLUMMER], a, phi, &err), 0);
+    assert_true(fabs(phi[0] / unit + integral(plummer_pull, s, 100) + 1 / sqrt(10001)) < 1e-9);
+    assert_true(fabs(a[0] * eps / unit + 0.6 * plummer_pull(s, NULL)) < 1e-9);
+    assert_true(fabs(a[1] * eps / unit - 0.8 * plummer_pull(s, NULL)) < 1e-9);
+    assert_int_equal(gravity_direct(2, x, m, h, &DIRECT[ONE], a, phi, &err), 0);
+    if (s >= 3) assert_true(fabs(phi[0] / unit + 1 / s) < 1e-12);
+    if (s >= 3) assert_true(fabs(a[0] * eps / unit + 0.6 / (s * s)) < 1e-9);
+    if (s == 0) assert_true(fabs(phi[0] / unit + 1) < 1e-12 && a[0] == 0);
+  }
+}
+
+static void check_gradient(const GravityOptions *o)
+{
   Cloud c = cloud_new(SPHERE, 300, 1, 5);
   double *a = c.y, *phi = calloc(300, 8), a0[3];
-  assert_int_equal(gravity_direct(c.n, c.x, c.m, c.h, G, a, phi, &err), 0);
+  assert_int_equal(gravity_direct(c.n, c.x, c.m, c.h, o, a, phi, &err), 0);
   memcpy(a0, a + 3 * 150, sizeof a0);
   for (int d = 0; d < 3; d++) {
     const double x0 = c.x[450 + d], e = 1e-3 * c.h[150];
     double side[2];
     for (int k = 0; k < 2; k++) {
       c.x[450 + d] = x0 + (k ? e : -e);
-      assert_int_equal(gravity_direct(c.n, c.x, c.m, c.h, G, a, phi, &err), 0);
+      assert_int_equal(gravity_direct(c.n, c.x, c.m, c.h, o, a, phi, &err), 0);
       side[k] = phi[150];
     }
     c.x[450 + d] = x0;
@@ -104,13 +154,22 @@ static void force_is_the_gradient(void **state)
   free(phi), cloud_free(&c);
 }
 
+/* The force is minus the gradient of the potential: a test particle moved by 1e-3 h. */
+static void force_is_the_gradient(void **state)
+{
+  (void)state;
+  for (int soft = BY_H; soft < SOFTENINGS; soft++) check_gradient(&DIRECT[soft]);
+}
+
 static void momentum_of_direct_sums(void **state)
 {
   (void)state;
-  for (int shape = 0; shape < SHAPES; shape++) {
-    Cloud c = cloud_new(shape, 1000, 2, 5);
+  for (int k = 0; k < SHAPES * SOFTENINGS; k++) {
+    const int shape = k / SOFTENINGS, soft = k % SOFTENINGS;
+    Cloud c = cloud_new(shape, 500, 2, 5);
     double p[3] = {0}, size = 0;
-    assert_int_equal(gravity_direct(c.n, c.x, c.m, c.h, G, c.v, NULL, &err), 0);
+    assert_int_equal(
+        gravity_direct(c.n, c.x, c.m, soft ? c.h : NULL, &DIRECT[soft], c.v, NULL, &err), 0);
     for (long i = 0; i < c.n; i++) {
       size += c.m[i] * size3(c.v + 3 * i);
       for (int d = 0; d < 3; d++) p[d] += c.m[i] * c.v[3 * i + d];
@@ -152,23 +211,25 @@ typedef struct {
   Cloud c;
   Tree t;
   double *a, *b, *pa, *pb; /* a: tree; b: direct */
+  double unit;             /* of epsilon in the tree, m */
 } Lab;
 
 static Lab lab_new(Cloud c, int soft)
 {
   const size_t n = (size_t)c.n;
-  Lab l = {c, {0}, calloc(n, 24), calloc(n, 24), calloc(n, 8), calloc(n, 8)};
-  const double *h = soft ? c.h : NULL;
+  Lab l = {c, {0}, calloc(n, 24), calloc(n, 24), calloc(n, 8), calloc(n, 8), 1};
+  const double *h = soft == BARE ? NULL : c.h;
   assert_int_equal(tree_build(&l.t, c.n, c.x, c.m, h, &err), 0);
-  assert_int_equal(gravity_direct(c.n, c.x, c.m, h, G, l.b, l.pb, &err), 0);
+  assert_int_equal(gravity_direct(c.n, c.x, c.m, h, &DIRECT[soft], l.b, l.pb, &err), 0);
   return l;
 }
 
 static Errors lab_run(Lab *l, double theta, int single, int soft)
 {
-  const GravityOptions o = {theta, G, single};
-  assert_int_equal(gravity_tree(&l->t, l->c.x, l->c.m, soft ? l->c.h : NULL, &o, l->a, l->pa, &err),
-                   0);
+  GravityOptions o = DIRECT[soft];
+  o.theta = theta, o.single = single, o.epsilon *= l->unit;
+  assert_int_equal(
+      gravity_tree(&l->t, l->c.x, l->c.m, soft == BARE ? NULL : l->c.h, &o, l->a, l->pa, &err), 0);
   return compare(l->c.n, l->a, l->b, l->pa, l->pb);
 }
 
@@ -185,7 +246,7 @@ static void closed_angle_is_direct(void **state)
   const long sizes[] = {1, 2, 17, 1000};
   for (int shape = 0; shape < SHAPES; shape++)
     for (int k = 0; k < 4; k++)
-      for (int soft = 0; soft < 2; soft++) {
+      for (int soft = 0; soft < SOFTENINGS; soft++) {
         Lab l = lab_new(cloud_new(shape, sizes[k], 3, 5), soft);
         Errors e = lab_run(&l, 0, 0, soft);
         if (sizes[k] == 1)
@@ -226,7 +287,7 @@ static void errors_of_the_tree(void **state)
   (void)state;
   const CloudShape shapes[] = {SPHERE, TWO_BODIES, CLUSTERS};
   for (int k = 0; k < 3; k++)
-    for (int soft = 0; soft < 2; soft++) {
+    for (int soft = 0; soft < SOFTENINGS; soft++) {
       Lab l = lab_new(cloud_new(shapes[k], 8000, 5, 2), soft);
       const Errors half = lab_run(&l, 0.5, 1, soft), e = lab_run(&l, 0.7, 1, soft);
       assert_true(e.median < 1e-3 && e.p99 < 1e-2 && e.phi < 2e-3);
@@ -279,16 +340,17 @@ static void single_precision_of_any_size(void **state)
   const double length[] = {1e-9, 1, 1e15}, mass[] = {1e-30, 1, 1e25}, shift[] = {0, 1e9, 0};
   const CloudShape shapes[] = {SPHERE, TWO_BODIES, CLUSTERS, LINE, OUTLIER};
   for (int s = 0; s < 5; s++)
-    for (int k = 0; k < 6; k++) {
-      Cloud c = cloud_new(shapes[s], k / 3 ? 2000 : 17, 8, 3);
+    for (int k = 0; k < 12; k++) {
+      const int soft = k / 6 ? PLUMMER : BY_H, few = k / 3 % 2;
+      Cloud c = cloud_new(shapes[s], few ? 17 : 2000, 8, 3);
       for (long i = 0; i < c.n; i++) {
         c.m[i] *= mass[k % 3], c.h[i] *= length[k % 3];
         for (int d = 0; d < 3; d++) c.x[3 * i + d] = c.x[3 * i + d] * length[k % 3] + shift[k % 3];
       }
-      Lab l = lab_new(c, 1);
-      lab_run(&l, 0.7, 0, 1);
+      Lab l = lab_new(c, soft);
+      l.unit = length[k % 3], lab_run(&l, 0.7, 0, soft);
       memcpy(l.b, l.a, 24 * (size_t)c.n), memcpy(l.pb, l.pa, 8 * (size_t)c.n);
-      const Errors e = lab_run(&l, 0.7, 1, 1);
+      const Errors e = lab_run(&l, 0.7, 1, soft);
       assert_true(e.max < 1e-5 && e.phi < 1e-5);
       lab_free(&l);
     }
@@ -331,7 +393,7 @@ static void potential_is_optional(void **state)
   (void)state;
   Cloud c = cloud_new(SPHERE, 2000, 10, 1);
   Lab l = lab_new(c, 1);
-  const GravityOptions o = {0.7, G, 0};
+  const GravityOptions o = {.theta = 0.7, .G = G};
   const Errors e = (lab_run(&l, 0.7, 0, 1), memcpy(l.b, l.a, 48000), memcpy(l.pb, l.pa, 16000),
                     lab_run(&l, 0.7, 0, 1));
   assert_true(e.max == 0);
@@ -349,6 +411,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(softening_is_the_kernels_mass),
       cmocka_unit_test(two_bodies),
+      cmocka_unit_test(one_length_for_all),
       cmocka_unit_test(force_is_the_gradient),
       cmocka_unit_test(momentum_of_direct_sums),
       cmocka_unit_test(closed_angle_is_direct),

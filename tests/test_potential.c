@@ -37,7 +37,7 @@ static double plain(const Parts *p, const long *list, const unsigned char *in, l
     if (j == k || !in[j]) continue;
     for (int d = 0; d < 3; d++) r2 += pow(p->x[3 * a + d] - p->x[3 * b + d], 2);
     const double r = sqrt(r2), s = fmax(r, h);
-    sum -= UNIT_G * p->m[b] / s * gravity_soft_potential(fmin(r / h, 1));
+    sum -= UNIT_G * p->m[b] / s * softening_potential(fmin(r / h, 1));
   }
   return sum;
 }

@@ -215,10 +215,11 @@ static int pull(Sim *sim, Err *err)
 {
   Cpu *c = sim->own;
   const State *s = &sim->s;
-  GravityOptions o = {sim->par.theta, sim->par.G, sim->par.precision == PARAM_MIXED};
+  const Param *p = &sim->par;
+  const GravityOptions o = {p->theta, p->G, p->precision == PARAM_MIXED, p->softening, p->epsilon};
   if (s->pull0) memcpy(s->pull0, s->pull, 3 * (size_t)s->n * sizeof *s->pull);
   if (sim->par.gravity == PARAM_DIRECT)
-    return gravity_direct(s->n, s->x, s->m, s->h, o.G, s->pull, s->phi, err);
+    return gravity_direct(s->n, s->x, s->m, s->h, &o, s->pull, s->phi, err);
   if (gravity_tree(&c->tree, s->x, s->m, s->h, &o, s->pull, s->phi, err)) return -1;
   take_recoil(s);
   return 0;

@@ -37,9 +37,9 @@ typedef struct {
 } Points;
 
 /* A node's moments in code units from the root's origin: com = hi + lo; q = sum m (3 r_a r_b - r^2
- * delta_ab) about com. */
+ * delta_ab), trace = sum m r^2 about com, the latter with Plummer's softening only. */
 typedef struct {
-  float hi[3], mass, lo[3], pad, q[6], pad2[2];
+  float hi[3], mass, lo[3], pad, q[6], trace, pad2;
 } Pole;
 
 /* The octree: nodes ordered by level, then along the curve; a node's children are consecutive; the

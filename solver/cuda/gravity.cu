@@ -75,13 +75,14 @@ INLINE DirectBody<double> direct_body(const Walk &w, int i, double)
 
 /* All pairs. The force on the pair is m_i m_j (...), its sum is as precise as a double, and what is
  * divided by is the mass: so momentum is conserved to the rounding of a double. */
-template <class Real>
+template <class Real, int Soft>
 static __global__ void __launch_bounds__(DIRECT_BLOCK) direct_sum(const __grid_constant__ Walk w)
 {
   __shared__ DirectBody<Real> tile[DIRECT_BLOCK];
   const int i = (int)(blockIdx.x * DIRECT_BLOCK + threadIdx.x);
   const DirectBody<Real> me = direct_body(w, min(i, w.n - 1), Real());
-  double total[3] = {0, 0, 0}, phi = pair_own(me.b.w * me.b.w, me.a.w + me.a.w);
+  double total[3] = {0, 0, 0},
+         phi = pair_own<Soft>(me.b.w * me.b.w, walk_support<Soft>(w, me.a.w, me.a.w));
   for (int from = 0; from < w.n; from += DIRECT_BLOCK) {
     const int j = from + (int)threadIdx.x, end = min(DIRECT_BLOCK, w.n - from);
     typename DirectSum<Real>::type sum[3] = {};
@@ -95,7 +96,8 @@ static __global__ void __launch_bounds__(DIRECT_BLOCK) direct_sum(const __grid_c
       const Real dx = a.x - me.a.x + (b.x - me.b.x), dy = a.y - me.a.y + (b.y - me.b.y),
                  dz = a.z - me.a.z + (b.z - me.b.z);
       Real p;
-      const Real f = pair_soft(dx, dy, dz, me.b.w * b.w, me.a.w + a.w, &p);
+      const Real f =
+          pair_any<Soft>(dx, dy, dz, me.b.w * b.w, walk_support<Soft>(w, me.a.w, a.w), &p);
       add(sum, product(f, dx)), add(sum + 1, product(f, dy)), add(sum + 2, product(f, dz));
       potential += p;
     }
@@ -213,6 +215,18 @@ static int chunk_of(long n)
   return chunk;
 }
 
+static int soft_of(const Param *p)
+{
+  return p->softening == SOFTENING_PLUMMER ? SOFT_PLUMMER : p->epsilon > 0 ? SOFT_ONE : SOFT_PAIR;
+}
+
+/* As pair_square, coincident particles make no NaN. */
+static double soft_length(const Param *p, double il)
+{
+  const double e = p->epsilon * il;
+  return p->softening == SOFTENING_PLUMMER ? fmax(e * e, 1e-24) : 0.5 * SOFTENING_SUPPORT * e;
+}
+
 static Walk walk_of(const Sim *sim)
 {
   const Cuda *c = cuda_of(sim);
@@ -223,11 +237,22 @@ static Walk walk_of(const Sim *sim)
   w.x = s->x, w.m = s->m, w.h = s->h, w.pull = s->pull, w.phi = s->phi;
   w.length = c->unit.length, w.mass = c->unit.mass, w.G = sim->par.G;
   w.il = 1 / w.length, w.im = 1 / w.mass;
+  w.soft = soft_length(&sim->par, w.il);
   w.over_theta = sim->par.theta > 0 ? (float)(1 / sim->par.theta) : INFINITY;
   w.n = (int)s->n, w.chunk = chunk_of(s->n);
   w.queue = {(int2 *)c->scratch, queue, queue + 1};
   return w;
 }
+
+/* The kernels by precision and softening. */
+typedef void (*Walker)(const Walk);
+#define BY_SOFTENING(KERNEL, REAL)                                                                 \
+  {                                                                                                \
+    KERNEL<REAL, SOFT_PAIR>, KERNEL<REAL, SOFT_ONE>, KERNEL<REAL, SOFT_PLUMMER>                    \
+  }
+static const Walker walks[2][3] = {BY_SOFTENING(walk_tree, double), BY_SOFTENING(walk_tree, float)};
+static const Walker sums[2][3] = {BY_SOFTENING(direct_sum, double),
+                                  BY_SOFTENING(direct_sum, float)};
 
 static void tree(Sim *sim, const Walk &w, int single)
 {
@@ -238,8 +263,7 @@ static void tree(Sim *sim, const Walk &w, int single)
                  parts = all < (unsigned)RECOIL_BLOCKS ? all : (unsigned)RECOIL_BLOCKS;
   CHECK(cudaMemsetAsync(g->queue, 0, 2 * sizeof *g->queue, c->stream));
   LAUNCH(walk_cut, launch_blocks((size_t)w.n, 128), 128, 0, c->stream, w);
-  LAUNCH(single ? walk_tree<float> : walk_tree<double>, w.n < WALKERS ? w.n : WALKERS, 32, 0,
-         c->stream, w);
+  LAUNCH(walks[single][soft_of(&sim->par)], w.n < WALKERS ? w.n : WALKERS, 32, 0, c->stream, w);
   LAUNCH(recoil_parts<RecoilForce>, parts, RECOIL_THREADS, 0, c->stream, w, g->recoil, g->force);
   LAUNCH(recoil_all<RecoilForce>, 1, RECOIL_THREADS, 0, c->stream, g->force, (int)parts, g->recoil);
   LAUNCH(recoil_parts<RecoilTorque>, parts, RECOIL_THREADS, 0, c->stream, w, g->recoil, g->torque);
@@ -252,17 +276,17 @@ int cuda_gravity(Sim *sim, Err *err)
   Cuda *c = cuda_of(sim);
   CudaError *error = &c->error;
   const int single = sim->par.precision == PARAM_MIXED, method = sim->par.gravity,
-            walks = sim->pull_due && method == PARAM_TREE;
+            by_tree = sim->pull_due && method == PARAM_TREE;
   const Walk w = walk_of(sim);
   const unsigned blocks = launch_blocks((size_t)w.n, DIRECT_BLOCK);
   if (method == PARAM_NONE) return 0;
   if (sim->pull_due && sim->s.pull0)
     CHECK(cudaMemcpyAsync(sim->s.pull0, sim->s.pull, 3 * (size_t)w.n * sizeof *sim->s.pull,
                           cudaMemcpyDeviceToDevice, c->stream));
-  if (walks) tree(sim, w, single);
+  if (by_tree) tree(sim, w, single);
   if (sim->pull_due && method == PARAM_DIRECT)
-    LAUNCH(single ? direct_sum<float> : direct_sum<double>, blocks, DIRECT_BLOCK, 0, c->stream, w);
-  LAUNCH(add_pull, blocks, DIRECT_BLOCK, 0, c->stream, w, walks ? c->gravity->recoil : NULL,
+    LAUNCH(sums[single][soft_of(&sim->par)], blocks, DIRECT_BLOCK, 0, c->stream, w);
+  LAUNCH(add_pull, blocks, DIRECT_BLOCK, 0, c->stream, w, by_tree ? c->gravity->recoil : NULL,
          sim->s.acc, sim->s.dimension);
   return launch_failed(error, err);
 }

@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What one source does to one target, in single or double precision, code units, G = 1: see
- * lib/gravity.h. d is from the target to the source. */
+ * lib/gravity.h. d is from the target to the source. Soft, a literal: how pairs are softened. */
 #ifndef GRAVITY_PAIR_CUH
 #define GRAVITY_PAIR_CUH
 
 #include <cuda_runtime.h>
-#include "../../physics/hd.h"
+#include "../../physics/softening.h"
+
+/* Splines of the pair's h or of one, Plummer's. */
+enum { SOFT_PAIR, SOFT_ONE, SOFT_PLUMMER };
 
 #define INLINE static __device__ __forceinline__
 
@@ -44,32 +47,49 @@ template <class Real> INLINE void pair_newton(Real dx, Real dy, Real dz, Real m,
 template <class Real> INLINE Real pair_soft(Real dx, Real dy, Real dz, Real m, Real h, Real *p)
 {
   const Real r2 = pair_square(dx, dy, dz), r = r2 * inverse_root(r2), i1 = inverse(larger(r, h));
-  const Real q = r * i1, q2 = q * q, i2 = i1 * i1, mi = m * i1;
-  const Real force = 14 + q2 * (-84 + q * (140 + q * (-90 + q * 21)));
-  const Real potential = 3 + q2 * (-7 + q2 * (21 + q * (-28 + q * (15 - q * 3))));
-  *p = -mi * potential;
-  return mi * i2 * force;
+  const Real q = r * i1, i2 = i1 * i1, mi = m * i1;
+  *p = -mi * SOFTENING_POTENTIAL(q);
+  return mi * i2 * SOFTENING_FORCE(q);
+}
+
+/* pair_plummer: the same; eps2 > 0: epsilon^2. */
+template <class Real>
+INLINE Real pair_plummer(Real dx, Real dy, Real dz, Real m, Real eps2, Real *p)
+{
+  const Real i1 = inverse_root(dz * dz + (dy * dy + (dx * dx + eps2))), mi = m * i1;
+  *p = -mi;
+  return mi * (i1 * i1);
+}
+
+/* pair_any: h: the pair's support, or eps2 of Plummer. */
+template <int Soft, class Real>
+INLINE Real pair_any(Real dx, Real dy, Real dz, Real m, Real h, Real *p)
+{
+  return Soft == SOFT_PLUMMER ? pair_plummer(dx, dy, dz, m, h, p) : pair_soft(dx, dy, dz, m, h, p);
 }
 
 /* pair_own: minus the potential of a particle at its own place. Sums start with it, as the walk and
  * the direct sum come across the particle itself. */
-template <class Real> INLINE Real pair_own(Real m, Real h)
+template <int Soft, class Real> INLINE Real pair_own(Real m, Real h)
 {
   const Real zero = 0;
   Real p;
-  pair_soft(zero, zero, zero, m, h, &p);
+  pair_any<Soft>(zero, zero, zero, m, h, &p);
   return -p;
 }
 
-/* pair_pole: mass w of a, quadrupole xx xy xz yy of b, yz zz of c. */
-template <class Real>
+/* pair_pole: mass w of a, quadrupole xx xy xz yy of b, yz zz of c; with Plummer's softening z of c:
+ * eps2 times the trace. */
+template <int Soft, class Real>
 INLINE void pair_pole(Real dx, Real dy, Real dz, const Four<Real> &a, const Four<Real> &b,
-                      const Four<Real> &c, Field<Real> *f)
+                      const Four<Real> &c, Real eps2, Field<Real> *f)
 {
-  const Real i1 = inverse_root(dx * dx + dy * dy + dz * dz), i2 = i1 * i1, i5 = i2 * i2 * i1;
+  const Real r2 = dx * dx + dy * dy + dz * dz, d2 = Soft == SOFT_PLUMMER ? r2 + eps2 : r2;
+  const Real i1 = inverse_root(d2), i2 = i1 * i1, i5 = i2 * i2 * i1;
   const Real qx = b.x * dx + b.y * dy + b.z * dz, qy = b.y * dx + b.w * dy + c.x * dz,
              qz = b.z * dx + c.x * dy + c.y * dz;
-  const Real u = (qx * dx + qy * dy + qz * dz) * i5, mi = a.w * i1;
+  const Real qq = qx * dx + qy * dy + qz * dz, mi = a.w * i1,
+             u = (Soft == SOFT_PLUMMER ? qq - c.z : qq) * i5;
   const Real k = (mi + (Real)2.5 * u) * i2;
   f->x += k * dx, f->y += k * dy, f->z += k * dz;
   f->x -= i5 * qx, f->y -= i5 * qy, f->z -= i5 * qz;

@@ -44,6 +44,7 @@ typedef struct {
   double *pull, *phi;      /* m/s^2, J/kg */
   double length, mass, G;  /* code units in SI; m^3/kg/s^2 */
   double il, im;           /* 1/length, 1/mass: exact */
+  double soft;             /* SOFT_ONE: half the support; SOFT_PLUMMER: epsilon^2; code units */
   float over_theta;
   int n, chunk; /* chunk: the most particles of a piece, a power of two, at most 32 */
   WalkQueue queue;
@@ -101,6 +102,18 @@ INLINE void walk_pole(const Walk &w, int k, const float o[3], Four<double> *a, F
   *b = {q0.x * iq, q0.y * iq, q2.x * iq, q2.y * iq}, *c = {q4.x * iq, q4.y * iq, 0, 0};
 }
 
+/* walk_pole_soft: the rest of multipole k with Plummer's softening. */
+template <class Real> INLINE void walk_pole_soft(const Walk &w, int k, Four<Real> *c)
+{
+  c->z = (Real)w.soft * (Real)w.tree.pole[k].trace;
+}
+
+/* walk_support: of a pair, from both halves; pair_any's h. */
+template <int Soft, class Real> INLINE Real walk_support(const Walk &w, Real a, Real b)
+{
+  return Soft == SOFT_PAIR ? a + b : Soft == SOFT_ONE ? (Real)(2 * w.soft) : (Real)w.soft;
+}
+
 /* Squared distance of two boxes. */
 INLINE float walk_gap2(const float lo[3], const float hi[3], const float4 &a, const float4 &b)
 {
@@ -143,7 +156,7 @@ INLINE float walk_min(float x)
 
 /* walk_begin: the piece of count particles from first on; sums begin with what takes the particles'
  * own potential off. */
-template <class Real>
+template <int Soft, class Real>
 INLINE void walk_begin(const Walk &w, int first, int count, WalkGroup<Real> *g)
 {
   const int lane = (int)threadIdx.x, half = (count + 1) / 2,
@@ -162,7 +175,8 @@ INLINE void walk_begin(const Walk &w, int first, int count, WalkGroup<Real> *g)
   for (int t = 0; t < 2; t++) {
     Real h;
     g->at[t] = walk_body(w, t ? j : i, g->centre, &h);
-    g->sum[t] = {0, 0, 0, lane < pairs ? pair_own(g->at[t].w, h + h) : 0};
+    g->sum[t] = {0, 0, 0,
+                 lane < pairs ? pair_own<Soft>(g->at[t].w, walk_support<Soft>(w, h, h)) : 0};
     g->at[t].w = h;
   }
 }
@@ -185,26 +199,28 @@ template <class Real> INLINE void walk_close(WalkGroup<Real> *g, const Field<Rea
 }
 
 /* walk_nodes: the multipoles node[0 .. take-1]. */
-template <class Real>
+template <int Soft, class Real>
 INLINE void walk_nodes(const Walk &w, WalkShared<Real> *s, WalkGroup<Real> *g, int take)
 {
   const int lane = (int)threadIdx.x;
   Field<Real> f[2];
   walk_open(g, f);
   if (lane < take) walk_pole(w, s->node[lane], g->centre, s->a + lane, s->b + lane, s->c + lane);
+  if (lane < take && Soft == SOFT_PLUMMER) walk_pole_soft(w, s->node[lane], s->c + lane);
   __syncwarp();
 #pragma unroll 1
   for (int k = g->part; k < take; k += g->parts) {
     const Four<Real> a = s->a[k], b = s->b[k], c = s->c[k];
     for (int t = 0; t < 2; t++)
-      pair_pole(a.x - g->at[t].x, a.y - g->at[t].y, a.z - g->at[t].z, a, b, c, f + t);
+      pair_pole<Soft>(a.x - g->at[t].x, a.y - g->at[t].y, a.z - g->at[t].z, a, b, c, (Real)w.soft,
+                      f + t);
   }
   walk_close(g, f);
   __syncwarp();
 }
 
 /* walk_bodies: the particles body[0 .. take-1]; those within the softening of the box go first. */
-template <class Real>
+template <int Soft, class Real>
 INLINE void walk_bodies(const Walk &w, WalkShared<Real> *s, WalkGroup<Real> *g, int take)
 {
   const int lane = (int)threadIdx.x;
@@ -216,8 +232,8 @@ INLINE void walk_bodies(const Walk &w, WalkShared<Real> *s, WalkGroup<Real> *g, 
   int near = 0;
   if (lane < take) {
     const float4 p = w.points.hi[s->body[lane]];
-    const float reach = g->h + 0.5f * p.w;
-    near = walk_gap2(g->lo, g->hi, p, p) < 1.00001f * reach * reach;
+    const float reach = Soft == SOFT_PAIR ? g->h + 0.5f * p.w : (float)(2 * w.soft);
+    near = Soft == SOFT_PLUMMER || walk_gap2(g->lo, g->hi, p, p) < 1.00001f * reach * reach;
     a = walk_body(w, s->body[lane], g->centre, &half);
   }
   const unsigned soft = __ballot_sync(~0u, near);
@@ -232,7 +248,7 @@ INLINE void walk_bodies(const Walk &w, WalkShared<Real> *s, WalkGroup<Real> *g, 
       const Four<Real> *x = g->at + t;
       const Real dx = b.x - x->x, dy = b.y - x->y, dz = b.z - x->z;
       Real p;
-      const Real c = pair_soft(dx, dy, dz, b.w, h + x->w, &p);
+      const Real c = pair_any<Soft>(dx, dy, dz, b.w, walk_support<Soft>(w, h, x->w), &p);
       f[t].x += c * dx, f[t].y += c * dy, f[t].z += c * dz, f[t].p += p;
     }
   }
@@ -267,14 +283,14 @@ template <class Real> INLINE void walk_end(const Walk &w, WalkGroup<Real> *g, in
 
 /* walk_full_nodes: evaluates node[0 .. nodes-1], 32 at a time; the rest, too, at the end. Returns
  * how many are left. */
-template <class Real>
+template <int Soft, class Real>
 INLINE int walk_full_nodes(const Walk &w, WalkShared<Real> *s, WalkGroup<Real> *g, int nodes,
                            int end)
 {
   const int lane = (int)threadIdx.x;
   while (nodes >= 32 || (nodes && end)) {
     const int take = min(nodes, 32), rest = nodes - take;
-    walk_nodes(w, s, g, take);
+    walk_nodes<Soft>(w, s, g, take);
     if (lane < rest) s->node[lane] = s->node[32 + lane];
     nodes = rest;
     __syncwarp();
@@ -284,7 +300,7 @@ INLINE int walk_full_nodes(const Walk &w, WalkShared<Real> *s, WalkGroup<Real> *
 
 /* walk_full_bodies: puts the particles of some lanes' leaves behind those that are in body, and
  * evaluates as above. */
-template <class Real>
+template <int Soft, class Real>
 INLINE int walk_full_bodies(const Walk &w, WalkShared<Real> *s, WalkGroup<Real> *g, int bodies,
                             int end, unsigned leaves, int4 link)
 {
@@ -301,7 +317,7 @@ INLINE int walk_full_bodies(const Walk &w, WalkShared<Real> *s, WalkGroup<Real> 
     }
     if (bodies >= 32 || (!leaves && end)) {
       const int take = min(bodies, 32), rest = bodies - take;
-      walk_bodies(w, s, g, take);
+      walk_bodies<Soft>(w, s, g, take);
       if (lane < rest) s->body[lane] = s->body[32 + lane];
       bodies = rest;
       __syncwarp();
@@ -310,8 +326,22 @@ INLINE int walk_full_bodies(const Walk &w, WalkShared<Real> *s, WalkGroup<Real> 
   return bodies;
 }
 
+/* walk_soft: nodes closer than this are opened, h: of the node; Plummer's multipoles hold anywhere.
+ * walk_far2: the squared distance that makes a node small. */
+template <int Soft> INLINE float walk_soft(const Walk &w, float half, float h)
+{
+  return Soft == SOFT_PAIR ? half + 0.5f * h : Soft == SOFT_ONE ? (float)(2 * w.soft) : 0;
+}
+
+template <int Soft, class Real>
+INLINE float walk_far2(const Walk &w, const WalkGroup<Real> &g, const float4 &com)
+{
+  const float gap2 = walk_gap2(g.lo, g.hi, com, com);
+  return Soft == SOFT_PLUMMER ? gap2 + (float)w.soft : gap2;
+}
+
 /* walk_group: one piece. */
-template <class Real>
+template <int Soft, class Real>
 INLINE void walk_group(const Walk &w, WalkShared<Real> *s, int first, int count)
 {
   const int lane = (int)threadIdx.x, brother = lane % 8;
@@ -319,7 +349,7 @@ INLINE void walk_group(const Walk &w, WalkShared<Real> *s, int first, int count)
   const float mass = w.tree.com[0].w, over_mass = mass > 0 ? 1 / mass : 0;
   int top = 1, nodes = 0, bodies = 0;
   WalkGroup<Real> g;
-  walk_begin(w, first, count, &g);
+  walk_begin<Soft>(w, first, count, &g);
   if (lane == 0) s->stack[0] = 0;
   do {
     const int base = max(top - WALK_OPEN, 0), slot = base + lane / 8;
@@ -332,9 +362,9 @@ INLINE void walk_group(const Walk &w, WalkShared<Real> *s, int first, int count)
     if (look) {
       const float4 com = w.tree.com[k], lo = w.tree.lo[k], hi = w.tree.hi[k];
       const float far = lo.w * w.over_theta * (1 + __powf(com.w * over_mass, 1.f / 3)),
-                  soft = g.h + 0.5f * hi.w;
+                  soft = walk_soft<Soft>(w, g.h, hi.w);
       link = w.tree.link[k], inner = link.y > 0;
-      accept = link.w > WALK_DIRECT && walk_gap2(g.lo, g.hi, com, com) > far * far &&
+      accept = link.w > WALK_DIRECT && walk_far2<Soft>(w, g, com) > far * far &&
                walk_gap2(g.lo, g.hi, lo, hi) > 1.00001f * soft * soft;
     }
     const unsigned accepts = __ballot_sync(~0u, accept),
@@ -347,8 +377,8 @@ INLINE void walk_group(const Walk &w, WalkShared<Real> *s, int first, int count)
     if (accept) s->node[nodes + __popc(accepts & below)] = k;
     top += __popc(opens);
     __syncwarp();
-    nodes = walk_full_nodes(w, s, &g, nodes + __popc(accepts), !top);
-    bodies = walk_full_bodies(w, s, &g, bodies, !top, leaves, link);
+    nodes = walk_full_nodes<Soft>(w, s, &g, nodes + __popc(accepts), !top);
+    bodies = walk_full_bodies<Soft>(w, s, &g, bodies, !top, leaves, link);
   } while (top);
   walk_end(w, &g, first, count);
 }
@@ -368,7 +398,7 @@ static __global__ void __launch_bounds__(128) walk_cut(const __grid_constant__ W
 
 /* walk_tree: one warp a block, as many as the card can have at work; 16 blocks or more share a
  * multiprocessor. */
-template <class Real>
+template <class Real, int Soft>
 __global__ void __launch_bounds__(32, sizeof(Real) == sizeof(float) ? 16 : 12)
     walk_tree(const __grid_constant__ Walk w)
 {
@@ -379,7 +409,7 @@ __global__ void __launch_bounds__(32, sizeof(Real) == sizeof(float) ? 16 : 12)
     k = __shfl_sync(~0u, k, 0);
     if (k >= pieces) return;
     const int2 piece = w.queue.piece[k];
-    walk_group(w, &s, piece.x, piece.y);
+    walk_group<Soft>(w, &s, piece.x, piece.y);
     __syncwarp(); /* the stack is free again */
   }
 }

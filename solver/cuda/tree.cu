@@ -147,23 +147,31 @@ template <int LANES> static __device__ __forceinline__ float most(float v)
 
 /* What goes up. */
 typedef struct {
-  double m, com[3], q[6]; /* SI */
-  float lo[3], hi[3], h;  /* code units; h_max */
+  double m, com[3], q[6], trace; /* SI */
+  float lo[3], hi[3], h;         /* code units; h_max */
   float drift[3], reach;
   int count;
 } Up;
+
+/* POLES, a literal: whether masses count, and whether traces do. */
+enum { POLES_NONE, POLES_NEWTON, POLES_PLUMMER };
+
+static __device__ __forceinline__ double square3(double x, double y, double z)
+{
+  return x * x + y * y + z * z;
+}
 
 /* Adds m (3 r r - r^2 1). */
 static __device__ __forceinline__ void add_quadrupole(double q[6], double m, double x, double y,
                                                       double z)
 {
-  const double r2 = x * x + y * y + z * z;
+  const double r2 = square3(x, y, z);
   q[0] += m * (3 * x * x - r2), q[1] += m * 3 * x * y, q[2] += m * 3 * x * z;
   q[3] += m * (3 * y * y - r2), q[4] += m * 3 * y * z, q[5] += m * (3 * z * z - r2);
 }
 
 /* Mass, centre and box of all from those of the threads; sum: of m x. */
-template <int LANES, bool POLES>
+template <int LANES, int POLES>
 static __device__ __forceinline__ void join(const Build &a, Up *u, double sum[3])
 {
   u->h = most<LANES>(u->h), u->count = add<LANES>(u->count);
@@ -220,7 +228,7 @@ static __device__ __forceinline__ float keep_place(const Build &a, long i, const
 
 static __device__ __forceinline__ void start(Up *u)
 {
-  u->m = 0, u->h = u->reach = 0, u->count = 0;
+  u->m = u->trace = 0, u->h = u->reach = 0, u->count = 0;
 #pragma unroll
   for (int k = 0; k < 6; k++) u->q[k] = 0;
 #pragma unroll
@@ -228,7 +236,7 @@ static __device__ __forceinline__ void start(Up *u)
 }
 
 /* Particles first .. end-1, none: the thread's node is no leaf. */
-template <int LANES, bool POLES>
+template <int LANES, int POLES>
 static __device__ __forceinline__ void sum_leaf(const Build &a, long first, long end, int rank,
                                                 Up *u)
 {
@@ -255,10 +263,13 @@ static __device__ __forceinline__ void sum_leaf(const Build &a, long first, long
   for (long i = first + rank; i < end; i += LANES) {
     const double *x = a.s.x + 3 * i;
     if (POLES) add_quadrupole(u->q, a.s.m[i], x[0] - u->com[0], x[1] - u->com[1], x[2] - u->com[2]);
+    if (POLES == POLES_PLUMMER)
+      u->trace += a.s.m[i] * square3(x[0] - u->com[0], x[1] - u->com[1], x[2] - u->com[2]);
     u->reach = fmaxf(u->reach, keep_place(a, i, u->drift, cells));
   }
 #pragma unroll
   for (int k = 0; k < 6 && POLES; k++) u->q[k] = add<LANES>(u->q[k]);
+  if (POLES == POLES_PLUMMER) u->trace = add<LANES>(u->trace);
   u->reach = most<LANES>(u->reach);
 }
 
@@ -275,7 +286,7 @@ static __device__ __forceinline__ void read_moments(const Build &a, int child, d
 }
 
 /* From child `child` of each thread, -1: none. Others have written it: past the first cache. */
-template <bool POLES>
+template <int POLES>
 static __device__ __forceinline__ void sum_children(const Build &a, int child, int children, Up *u)
 {
   double c[4] = {0, 0, 0, 0}, sum[3];
@@ -298,6 +309,11 @@ static __device__ __forceinline__ void sum_children(const Build &a, int child, i
 #pragma unroll
     for (int k = 0; k < 6; k++) u->q[k] = add<FAMILY>(u->q[k]);
   }
+  if (POLES == POLES_PLUMMER) {
+    if (child >= 0) u->trace = __ldcg(&a.t.pole[child].trace) / (a.im * a.il * a.il);
+    u->trace += c[0] * square3(c[1] - u->com[0], c[2] - u->com[1], c[3] - u->com[2]);
+    u->trace = add<FAMILY>(u->trace);
+  }
   const float share = 1 / (float)max(children, 1);
   u->drift[0] = add<FAMILY>(drift.x) * share, u->drift[1] = add<FAMILY>(drift.y) * share;
   u->drift[2] = add<FAMILY>(drift.z) * share;
@@ -307,7 +323,7 @@ static __device__ __forceinline__ void sum_children(const Build &a, int child, i
   u->reach = most<FAMILY>(u->reach);
 }
 
-static __device__ void keep_pole(const Build &a, int node, const Up &u)
+template <int POLES> static __device__ void keep_pole(const Build &a, int node, const Up &u)
 {
   double2 *m = (double2 *)(a.t.moment + 10 * (size_t)node);
   const double iq = a.im * a.il * a.il;
@@ -319,27 +335,28 @@ static __device__ void keep_pole(const Build &a, int node, const Up &u)
   }
 #pragma unroll
   for (int k = 0; k < 6; k++) q[k] = __double2float_rn(u.q[k] * iq);
+  const float trace = POLES == POLES_PLUMMER ? __double2float_rn(u.trace * iq) : 0;
   float4 *to = (float4 *)(a.t.pole + node);
   to[0] = a.t.com[node] = make_float4(hi[0], hi[1], hi[2], __double2float_rn(u.m * a.im));
   to[1] = make_float4(lo[0], lo[1], lo[2], 0);
-  to[2] = make_float4(q[0], q[1], q[2], q[3]), to[3] = make_float4(q[4], q[5], 0, 0);
+  to[2] = make_float4(q[0], q[1], q[2], q[3]), to[3] = make_float4(q[4], q[5], trace, 0);
   m[0] = make_double2(u.m, u.com[0]), m[1] = make_double2(u.com[1], u.com[2]);
   m[2] = make_double2(u.q[0], u.q[1]), m[3] = make_double2(u.q[2], u.q[3]);
   m[4] = make_double2(u.q[4], u.q[5]);
 }
 
-template <bool POLES> static __device__ void keep(const Build &a, int node, int first, const Up &u)
+template <int POLES> static __device__ void keep(const Build &a, int node, int first, const Up &u)
 {
   const int level = tree_common(a.key[first], a.key[first + u.count - 1]);
   const double size = a.root->edge / (double)(1 << level) * a.il;
   a.t.lo[node] = make_float4(u.lo[0], u.lo[1], u.lo[2], __double2float_ru(size));
   a.t.hi[node] = make_float4(u.hi[0], u.hi[1], u.hi[2], u.h);
   a.b.drift[node] = make_float4(u.drift[0], u.drift[1], u.drift[2], u.reach);
-  if (POLES) keep_pole(a, node, u);
+  if (POLES) keep_pole<POLES>(a, node, u);
 }
 
 /* Leaves: HANDS threads each, as most hold three or four particles. */
-template <bool POLES>
+template <int POLES>
 static __global__ void __launch_bounds__(THREADS, 3) sum_leaves(const __grid_constant__ Build a)
 {
   const int nodes = a.t.level[ROWS], stride = (int)gridDim.x * THREADS / HANDS;
@@ -357,7 +374,7 @@ static __global__ void __launch_bounds__(THREADS, 3) sum_leaves(const __grid_con
 
 /* From the nodes `node` of a warp's four families as far up as they are the last to come; a node
  * that has inner children waits for these. */
-template <bool POLES>
+template <int POLES>
 static __device__ __forceinline__ void climb(const Build &a, int nodes, int node)
 {
   const int lane = threadIdx.x % 32, rank = lane % FAMILY, head = lane - rank;
@@ -388,7 +405,7 @@ static __device__ __forceinline__ void climb(const Build &a, int nodes, int node
 }
 
 /* All others, from those with leaves only; a warp looks for these among 32 nodes at a time. */
-template <bool POLES>
+template <int POLES>
 static __global__ void __launch_bounds__(THREADS, 3) sum_up(const __grid_constant__ Build a)
 {
   const int nodes = a.t.level[ROWS], stride = (int)gridDim.x * THREADS;
@@ -410,13 +427,23 @@ static int blocks_of(long n) { return (int)launch_blocks((size_t)n, THREADS); }
 /* Whether gravity needs the tree. */
 static int walked(const Sim *sim) { return sim->par.gravity == PARAM_TREE; }
 
+static int poles_of(const Sim *sim)
+{
+  if (!walked(sim) || !sim->pull_due) return POLES_NONE;
+  return sim->par.softening == SOFTENING_PLUMMER ? POLES_PLUMMER : POLES_NEWTON;
+}
+
+typedef void (*Summer)(const Build);
+static const Summer leaves[] = {sum_leaves<POLES_NONE>, sum_leaves<POLES_NEWTON>,
+                                sum_leaves<POLES_PLUMMER>};
+static const Summer ups[] = {sum_up<POLES_NONE>, sum_up<POLES_NEWTON>, sum_up<POLES_PLUMMER>};
+
 int cuda_tree(Sim *sim, Err *err)
 {
   Cuda *c = cuda_of(sim);
   CudaError *error = &c->error;
   struct CudaTree *b = c->build;
-  const int blocks = blocks_of(sim->s.all), few = min(blocks, 8 * 132),
-            poles = walked(sim) && sim->pull_due;
+  const int blocks = blocks_of(sim->s.all), few = min(blocks, 8 * 132), poles = poles_of(sim);
   Build a = {sim->s,
              c->unit.length,
              1 / c->unit.length,
@@ -433,8 +460,8 @@ int cuda_tree(Sim *sim, Err *err)
     CHECK(cub::DeviceScan::ExclusiveSum(b->scan, b->scan_bytes, b->count, b->base,
                                         ROWS * blocks + 1, c->stream));
   LAUNCH(make_nodes, blocks, THREADS, 0, c->stream, a);
-  LAUNCH(poles ? sum_leaves<true> : sum_leaves<false>, few, THREADS, 0, c->stream, a);
-  LAUNCH(poles ? sum_up<true> : sum_up<false>, few, THREADS, 0, c->stream, a);
+  LAUNCH(leaves[poles], few, THREADS, 0, c->stream, a);
+  LAUNCH(ups[poles], few, THREADS, 0, c->stream, a);
   return launch_failed(error, err);
 }
 
