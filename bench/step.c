@@ -12,7 +12,6 @@
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
-#include "lib/gravity.h"
 #include "lib/opt.h"
 #include "solver/conflict.h"
 #include "body.h"
@@ -113,6 +112,15 @@ typedef struct {
   double a[3], du, work;
 } Felt;
 
+/* What gravity is of G m r: 1/r^3, softened [1/m^3]. */
+static double pull_over_r(const Param *p, double r, double h)
+{
+  const double e = p->epsilon, support = e > 0 ? SOFTENING_SUPPORT * e : h;
+  if (p->gravity == PARAM_NONE) return 0;
+  if (p->softening == SOFTENING_PLUMMER) return pow(r * r + e * e, -1.5);
+  return softening_force(fmin(r / support, 1)) / pow(fmax(r, support), 3);
+}
+
 /* By one other particle. */
 static void feel(const Sim *sim, const State *s, const PairRun *run, long i, long j, Felt *f)
 {
@@ -124,9 +132,7 @@ static void feel(const Sim *sim, const State *s, const PairRun *run, long i, lon
                           ? pair_rich(d, &me, &other, &e[i], &e[j], kernel, 0, run, &sim->more).f
                           : pair_force(d, &me, &other, kernel, 0, sim->tensor, sim->miscible, run);
   const double r = sqrt(pair_dot(d, d)), h = .5 * (me.h + other.h), w = 1 / me.m;
-  const double g = sim->par.gravity == PARAM_NONE ? 0
-                                                  : sim->par.G * other.m / pow(fmax(r, h), 3) *
-                                                        softening_force(fmin(r / h, 1));
+  const double g = sim->par.G * other.m * pull_over_r(&sim->par, r, h);
   f->a[0] += w * p.fx - g * d.x, f->a[1] += w * p.fy - g * d.y, f->a[2] += w * p.fz - g * d.z;
   f->du += w * p.work, f->work += fabs(w * p.work);
 }

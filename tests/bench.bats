@@ -70,7 +70,7 @@ rows_of_cost() { bench/cost -l -d cpu "$@" step; }
   # All words of these keys but their defaults.
   awk -F' \\| ' '/^\| `/ {
     key = substr($1, 4, length($1) - 4); default = substr($2, 2, length($2) - 2); n = split($3, word, /, /)
-    if (key ~ /^(integrator|kernel|precision|density|pressure_form|stress_form|energy|gravity\.method|viscosity\.(switch|balsara)|smoothing\.mode)$/)
+    if (key ~ /^(integrator|kernel|precision|density|pressure_form|stress_form|energy|gravity\.(method|softening)|viscosity\.(switch|balsara)|smoothing\.mode)$/)
       for (k = 1; k <= n; k++) if (word[k] != default && word[k] != "false") print key "=" word[k]
   }' docs/run.md >"$BATS_TEST_TMPDIR/words"
   [ "$(wc -l <"$BATS_TEST_TMPDIR/words")" -ge 20 ]
