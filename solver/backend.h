@@ -109,6 +109,7 @@ struct Sim {
   int rare;     /* any material with laws that few runs need (material_rare) */
   int porous;   /* any material with pores */
   int heated;   /* any material whose strength has a temperature of its own, and strength on */
+  int central;  /* laws that depend on the distance from a centre */
   int miscible; /* the number-density form */
   Bounds bounds;
   Hold hold;

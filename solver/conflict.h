@@ -79,6 +79,7 @@ static inline int conflict_mirrors(const Param *p)
   U("viscosity.least", p->viscosity_switch == RICH_NONE, "viscosity.switch") \
   U("smoothing.min", p->smoothing == PARAM_FIXED, "smoothing.mode") \
   U("smoothing.max", p->smoothing == PARAM_FIXED, "smoothing.mode") \
+  U("disk.point", !s->central, "no law here has a centre") \
   U("sink.rule", !points_sinks(s), "no point mass has a radius") \
   U("sink.every", !points_sinks(s), "no point mass has a radius") \
   U("escape.from", !(p->escape_distance > 0), "escape.distance") \

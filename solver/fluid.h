@@ -30,11 +30,10 @@ typedef struct {
  * matter_slide's does: 8 times the sum over h is on top of the wave speed. */
 HD_CALL Sym fluid_stress(const State *s, const Fluid *f, long i)
 {
-  const double *x = &s->x[3 * i], *g = &s->g[9 * i], div = g[0] + g[4] + g[8];
+  const double *g = &s->g[9 * i], div = g[0] + g[4] + g[8];
   double shear = f->shear, bulk = f->bulk;
   Sym e = passes_strain_rate(g);
-  if (f->shakura > 0)
-    shear += f->shakura * f->aspect * s->cs[i] * sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+  if (f->shakura > 0) shear += f->shakura * f->aspect * s->cs[i] * matter_radius(s, i);
   if (div < 0) bulk -= f->compression * s->h[i] * s->h[i] * div;
   s->cl[i] += 8 * (shear + bulk) / s->h[i];
   const double all = s->rho[i] * (bulk - 2. / 3 * shear) * div;

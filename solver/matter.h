@@ -62,13 +62,20 @@ HD_CALL double matter_tension(const State *s, const Material *m, long i, double 
   return p < -most ? -most : p;
 }
 
+/* matter_radius: the distance of i from the centre of the disk. */
+HD double matter_radius(const State *s, long i)
+{
+  const double x = s->x[3 * i] - s->centre[0], y = s->x[3 * i + 1] - s->centre[1],
+               z = s->x[3 * i + 2] - s->centre[2];
+  return sqrt(x * x + y * y + z * z);
+}
+
 /* matter_eos: p, cs and the longitudinal wave speed of i at energy u; with strength on, no more
  * tension than the yield law has; no pressure below its floor. */
 HD void matter_eos(const State *s, long i, double u, int strength)
 {
   const Material *m = &s->material[s->mat[i]];
-  const double *x = &s->x[3 * i];
-  double r = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]), alpha = 1, mu = m->mu;
+  double r = matter_radius(s, i), alpha = 1, mu = m->mu;
   EosPoint e;
   if (matter_porous(s, m)) {
     PorousPoint q = porosity_eval(&m->porosity, &m->eos, s->rho[i], u, r, s->alpha[i]);

@@ -72,7 +72,7 @@ static const CfgRow viscosity[] = {
   {"balsara", CFG_BOOL, AT(balsara), NULL, "false", ANY, "less artificial viscosity where matter turns or shears (Balsara 1995)"},
   {"kinematic", CFG_REAL, AT(shear), "m^2/s", "0", 0, 1e300, "constant kinematic viscosity of fluids (Navier-Stokes)"},
   {"shakura_sunyaev", CFG_REAL, AT(shakura), "1", "0", 0, 10,
-   "alpha of a kinematic viscosity alpha c H of fluids, H = aspect times the distance from the origin"},
+   "alpha of a kinematic viscosity alpha c H of fluids, H = aspect times the distance from the centre (disk.point)"},
   {"aspect", CFG_REAL, AT(aspect), "1", "0.05", 0, 10, "H/r for shakura_sunyaev"},
   {"bulk", CFG_REAL, AT(bulk), "m^2/s", "0", 0, 1e300, "constant kinematic bulk viscosity of fluids"},
   {"compression", CFG_REAL, AT(compression), "1", "0", 0, 100,
@@ -93,6 +93,10 @@ static const CfgRow force[] = {
   {"x", CFG_REAL, AT(force[0]), "m/s^2", "0", ANY, "constant body force along x"},
   {"y", CFG_REAL, AT(force[1]), "m/s^2", "0", ANY, "along y"},
   {"z", CFG_REAL, AT(force[2]), "m/s^2", "0", ANY, "along z"},
+};
+static const CfgRow disk[] = {
+  {"point", CFG_INT, AT(disk_point), NULL, "1", 0, PARAM_POINTS,
+   "which point mass (1, 2, ...) is the centre for local_isothermal and shakura_sunyaev; 0, or without point masses: the origin"},
 };
 static const CfgRow heating[] = {
   {"rate", CFG_REAL, AT(deposit), "W/kg", "0", ANY, "energy from outside at the centre; 0: none"},
@@ -251,6 +255,7 @@ static const Group groups[] = {GROUP("", top),
                                GROUP("form", form),
                                GROUP("stress", stress),
                                GROUP("force", force),
+                               GROUP("disk", disk),
                                GROUP("heating", heating),
                                GROUP("smoothing", smoothing),
                                GROUP("step", step),

@@ -31,6 +31,7 @@ typedef struct {
   double xsph, diffusion, artificial, spacing;
   double shear, bulk, shakura, aspect, compression;
   double force[3];
+  int disk_point;
   double deposit, deposit_centre[3], deposit_radius, deposit_begin, deposit_end;
   int deposit_profile, deposit_axis;
   int smoothing;

@@ -16,6 +16,8 @@ int points_open(Sim *sim, const Parts *p, Err *err)
   memcpy(q->p, from, (size_t)q->n * sizeof *from);
   if (par->escape_distance > 0 && par->escape_from == PARAM_POINT && !q->n)
     return err_set(err, "escape.from = point: there is no point mass");
+  if (par->disk_point > 1 && par->disk_point > q->n)
+    return err_set(err, "disk.point = %d: there are %d point masses", par->disk_point, q->n);
   return pointmass_check(q->p, q->n, p->dimension, err);
 }
 
@@ -58,6 +60,8 @@ void points_pass(Sim *sim, int pass, const Step *k)
   PointMasses *q = &sim->points;
   for (int i = 0; i < q->n; i++)
     for (int d = 0; d < 3 && !q->p[i].fixed; d++) pass_one(q, pass, k, i, d);
+  if (q->n && sim->par.disk_point)
+    memcpy(sim->s.centre, q->p[sim->par.disk_point - 1].x, sizeof sim->s.centre);
 }
 
 /* From the place x to y. */

@@ -125,6 +125,7 @@ static int open_common(Sim *sim, const Param *par, const Parts *p, const char *d
     sim->rare |= material_rare(m);
     sim->porous |= material_distends(m);
     sim->heated |= par->strength && material_heats(m);
+    sim->central |= m->eos.form == EOS_LOCAL_ISOTHERMAL || par->shakura > 0;
   }
   sim->viscous = par->shear > 0 || par->bulk > 0 || par->shakura > 0 || par->compression > 0;
   rich_open(sim, p);

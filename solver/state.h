@@ -67,7 +67,8 @@ typedef struct {
   const Material *material; /* [materials], indexed by mat */
   const double *flaw;       /* thresholds of all particles, ascending within one */
   Floors floors;
-  double force[3]; /* constant body force [m/s^2] */
+  double force[3];  /* constant body force [m/s^2] */
+  double centre[3]; /* of the disk, for laws that depend on the distance from it [m] */
 #define STATE_MEMBER(TYPE, MEMBER, ...) TYPE *MEMBER;
   ALL_FIELDS(STATE_MEMBER)
   MOVED_FIELDS(STATE_MEMBER)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Locally isothermal disk: p = c^2 rho, c = H/r v_Kepler = aspect sqrt(G M/r), r the distance from
- * the central mass (000, EOS 12). */
+ * the central mass (000, EOS 12): in a run that of disk.point. */
 #ifndef EOS_LOCAL_ISOTHERMAL_H
 #define EOS_LOCAL_ISOTHERMAL_H
 
