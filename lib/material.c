@@ -315,6 +315,7 @@ static int root_read(const config_setting_t *root, Material *m, const char *labe
     if (group && part_read(group, &parts[k], m, label, err)) return -1;
     if (k == 0 && table_load(root, m, label, err)) return -1;
   }
+  m->porosity.start = porosity_start(&m->porosity, &m->eos);
   return consistent(root, m, label, err);
 }
 

@@ -45,6 +45,7 @@ typedef struct {
   int form;      /* PorosityForm */
   double alpha0; /* distention in the beginning */
   double c;      /* sound speed at alpha0 [m/s]; 0: the solid's */
+  double start;  /* porosity_start, by the reader of materials */
   union {
 #define POROSITY_MEMBER(CAPITAL, NAME) struct porosity_##NAME NAME;
     POROSITY_LAWS(POROSITY_MEMBER)
@@ -73,14 +74,6 @@ HD double porosity_curve(const Porosity *q, double p)
   return alpha > q->alpha0 ? q->alpha0 : alpha < 1 ? 1 : alpha;
 }
 
-/* porosity_start: the pressure [Pa] at which pores begin to crush; 0 where the law has none. */
-HD double porosity_start(const Porosity *q)
-{
-  return q->form == POROSITY_P_ALPHA             ? q->p_alpha.p_e
-         : q->form == POROSITY_P_ALPHA_TWO_POWER ? q->p_alpha_two_power.p_e
-                                                 : 0;
-}
-
 /* porosity_speed: elastic sound speed at alpha over the solid's, linear from 1 at alpha = 1 to
  * c_elastic at alpha0 (Herrmann 1969). */
 HD_CALL double porosity_speed(const Porosity *q, const Eos *e, double alpha)
@@ -97,6 +90,34 @@ HD double porosity_stiffness(const Porosity *q, const Eos *e, double alpha)
   if (q->form == POROSITY_NONE) return 1;
   if (q->form == POROSITY_SIRONO) return pow(q->alpha0 / alpha, q->sirono.power);
   return h * h / alpha;
+}
+
+/* porosity_start: the pressure [Pa] at which pores begin to crush at alpha0: p_e, or where a
+ * P-alpha curve without one leaves alpha0 (by bisection), that of elastic matter at the strain of
+ * epsilon-alpha, the strength of Sirono's dust; 0 where they do at once, or never. */
+HD double porosity_start(const Porosity *q, const Eos *e)
+{
+  double low = -30, high = 30, p;
+  if (q->form == POROSITY_NONE || q->alpha0 <= 1) return 0;
+  if (q->form == POROSITY_P_ALPHA) return q->p_alpha.p_e;
+  if (q->form == POROSITY_P_ALPHA_TWO_POWER) return q->p_alpha_two_power.p_e;
+  if (q->form == POROSITY_EPSILON_ALPHA)
+    return -q->epsilon_alpha.epsilon_e * eos_bulk(e) * porosity_stiffness(q, e, q->alpha0);
+  if (q->form == POROSITY_SIRONO) {
+    p = porosity_sirono_crush(&q->sirono, 1 / q->alpha0);
+    return p < INFINITY ? p : 0;
+  }
+  if (porosity_curve(q, pow(10., low)) < q->alpha0 ||
+      porosity_curve(q, pow(10., high)) >= q->alpha0)
+    return 0;
+  for (int k = 0; k < 100; k++) {
+    const double mid = 0.5 * (low + high);
+    if (porosity_curve(q, pow(10., mid)) < q->alpha0)
+      high = mid;
+    else
+      low = mid;
+  }
+  return pow(10., low);
 }
 
 /* porosity_strain: the volumetric strain of epsilon-alpha, negative in compression. */

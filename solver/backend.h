@@ -108,6 +108,7 @@ struct Sim {
   PairMore more;
   int rare;     /* any material with laws that few runs need (material_rare) */
   int porous;   /* any material with pores */
+  int crushes;  /* any whose pores begin to crush at a pressure */
   int heated;   /* any material whose strength has a temperature of its own, and strength on */
   int central;  /* laws that depend on the distance from a centre */
   int miscible; /* the number-density form */

@@ -96,7 +96,7 @@ static inline int conflict_mirrors(const Param *p)
   U("step.damage", !(s->solid && p->damage), "there is no damage in this run") \
   U("step.damage_least", !(p->step_damage > 0), "step.damage") \
   U("step.distention", !s->porous, "no material has pores") \
-  U("step.pressure", !s->porous, "no material has pores") \
+  U("step.pressure", !s->crushes, "no pores here begin to crush at a pressure") \
   U("error.position", integrator_of(p->integrator) != &integrator_rk2_adaptive, "integrator") \
   U("error.velocity", integrator_of(p->integrator) != &integrator_rk2_adaptive, "integrator") \
   U("error.density", integrator_of(p->integrator) != &integrator_rk2_adaptive, "integrator") \

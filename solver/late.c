@@ -35,6 +35,7 @@ static double soften(Material *m, const Param *p)
   m->eos = linear;
   m->mu = fmin(mu, 1.5 * K * (1 - 2 * nu) / (1 + nu));
   m->porosity.c *= sqrt(K / bulk);
+  m->porosity.start = porosity_start(&m->porosity, &m->eos);
   return mu > 0 ? m->mu / mu : 1;
 }
 

@@ -30,7 +30,7 @@ HD_CALL double limits_stress(const State *s, const Step *k, long i)
 HD_CALL void limits_pores(const State *s, const Step *k, long i, double *dt)
 {
   const Material *m = &s->material[s->mat[i]];
-  const double c = s->cs[i], start = porosity_start(&m->porosity);
+  const double c = s->cs[i], start = m->porosity.start;
   if (!matter_porous(s, m)) return;
   dt[LIMIT_DISTENTION] = limits_ratio(k->limit[LIMIT_DISTENTION], 1, s->dalpha[i]);
   if (start > 0)

@@ -133,7 +133,7 @@ static const CfgRow step[] = {
   {"distention", CFG_REAL, AT(step_distention), "1", "0", 0, 100,
    "largest change of the distention in a step (rk2-adaptive repeats a step that exceeds it); 0: no such limit"},
   {"pressure", CFG_REAL, AT(step_pressure), "1", "0", 0, 1000,
-   "largest change of p in a step, of the p_e at which pores begin to crush; 0: no such limit"},
+   "largest change of p in a step, of that at which pores begin to crush; 0: no such limit"},
   {"energy_least", CFG_REAL, AT(energy_least), "J/kg", "100", 0, 1e300, "added to u in step.energy"},
   {"stress_least", CFG_REAL, AT(stress_least), "Pa", "1e4", 0, 1e300, "added to |S| in step.stress"},
   {"damage_least", CFG_REAL, AT(damage_least), "1", "0.01", 0, 1, "added to D^(1/3) in step.damage"},

@@ -124,6 +124,7 @@ static int open_common(Sim *sim, const Param *par, const Parts *p, const char *d
     sim->stiffest = fmax(sim->stiffest, eos_bulk(&m->eos));
     sim->rare |= material_rare(m);
     sim->porous |= material_distends(m);
+    sim->crushes |= m->porosity.start > 0;
     sim->heated |= par->strength && material_heats(m);
     sim->central |= m->eos.form == EOS_LOCAL_ISOTHERMAL || par->shakura > 0;
   }

@@ -86,7 +86,7 @@ static const Case unused[] = {
     {"step.distention=1", "gravity.method=none", "gravity.method=none",
      "step.distention = 1 has no effect: no material has pores"},
     {"step.pressure=1", "gravity.method=none", "gravity.method=none",
-     "step.pressure = 1 has no effect: no material has pores"},
+     "step.pressure = 1 has no effect: no pores here begin to crush at a pressure"},
     {"error.position=0", "integrator=leapfrog", "integrator=rk2-adaptive",
      "error.position = 0 has no effect: integrator = leapfrog"},
     {"error.velocity=0", "integrator=leapfrog", "integrator=rk2-adaptive",
@@ -222,6 +222,7 @@ static const Case conflicts[] = {
 /* A run of rock that has all, one of gas with nothing, one of rock alone, one in the plane. */
 static const Sim full = {.solid = 1,
                          .porous = 1,
+                         .crushes = 1,
                          .fluid = 1,
                          .central = 1,
                          .points.n = 2,

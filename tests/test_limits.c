@@ -14,6 +14,11 @@ static const char PUMICE[] =
     "name = \"p\"; eos = { form = \"murnaghan\"; rho0 = 1.; K = 1.; n = 2.; };"
     "strength = { shear_modulus = 1.; form = \"none\"; };"
     "porosity = { form = \"p_alpha\"; alpha_0 = 1.3; p_e = 1e-3; p_s = 0.1; };";
+static const char DUST[] =
+    "name = \"p\"; eos = { form = \"murnaghan\"; rho0 = 1.; K = 1.; n = 2.; };"
+    "strength = { shear_modulus = 1.; form = \"none\"; };"
+    "porosity = { form = \"p_alpha_power\"; alpha_0 = 1.3; a = 0.946; b = 0.01; };";
+static double crush = 1e-3; /* pressure at which the pores of a run begin to crush */
 static const char BRITTLE[] =
     "name = \"b\"; eos = { form = \"murnaghan\"; rho0 = 1.; K = 1.; n = 2.; };"
     "strength = { shear_modulus = 1.; form = \"none\"; };"
@@ -41,10 +46,10 @@ static Parts *ball_of(const char *material, double u, double hubble)
 
 static Parts *ball(double u, double hubble) { return ball_of(GAS, u, hubble); }
 
-/* Crushes and shears: PUMICE, rather loose. */
-static Parts *pores(void)
+/* Crushes and shears: PUMICE or DUST, rather loose. */
+static Parts *pores(const char *material)
 {
-  Parts *p = ball_of(PUMICE, 0, -.05);
+  Parts *p = ball_of(material, 0, -.05);
   for (long i = 0; i < p->n; i++) p->rho[i] = .77, p->v[3 * i] += .1 * p->x[3 * i + 1];
   return p;
 }
@@ -79,7 +84,7 @@ static double allowed(const char *want, const State *s, const Param *par, double
     return par->step_damage * (cbrt(s->damage[i]) + par->damage_least) / s->dcrack[i];
   if (!strcmp(want, "distention")) return par->step_distention / fabs(s->dalpha[i]);
   if (!strcmp(want, "pressure"))
-    return par->step_pressure * 1e-3 / (s->rho[i] * c * c * fabs(s->divv[i]));
+    return par->step_pressure * crush / (s->rho[i] * c * c * fabs(s->divv[i]));
   if (!strcmp(want, "stress")) {
     const double *g = &s->g[9 * i];
     Sym now = {t[0], t[1], t[2], t[3], t[4], t[5]}, r = passes_jaumann(now, g, 1);
@@ -141,8 +146,13 @@ static void names(void **state)
         1e9);
   for (int rk = 0; rk < 2; rk++) {
     const char *integrator = rk ? "integrator=rk3-tvd" : "integrator=leapfrog";
-    limit("distention", pores(), lab_param(none, integrator, "step.distention=1e-6", NULL), 3, 1e9);
-    limit("pressure", pores(), lab_param(none, integrator, "step.pressure=1e-3", NULL), 3, 1e9);
+    limit("distention", pores(PUMICE), lab_param(none, integrator, "step.distention=1e-6", NULL), 3,
+          1e9);
+    crush = 1e-3;
+    limit("pressure", pores(PUMICE), lab_param(none, integrator, "step.pressure=1e-3", NULL), 3,
+          1e9);
+    crush = 1e6 * pow(.946 * 1.3, -100);
+    limit("pressure", pores(DUST), lab_param(none, integrator, "step.pressure=1e-3", NULL), 3, 1e9);
   }
   limit("max", ball(1, 0), lab_param(none, "step.max=1e-3", NULL), 1, 1e9);
   limit("output", ball(1, 0), lab_param(none, NULL), 1, 1e-3);

@@ -57,6 +57,38 @@ static void curves(void **state)
   assert_true(porosity_curve(&LAWS[0], 2e9) == 1 && porosity_curve(&LAWS[1], 3e8) == 1);
 }
 
+/* Where pores begin to crush: the curves' own numbers or their inverses, the pressure of elastic
+ * matter at epsilon_e; nothing where they do at once, never, or are not. */
+static void begin(void **state)
+{
+  const Eos e = {.form = EOS_MURNAGHAN, .murnaghan = {.rho0 = 2700, .K = 2e10, .n = 4}};
+  Porosity dust = {.form = POROSITY_SIRONO,
+                   .alpha0 = 1 / .2,
+                   .sirono = {.K_0 = 3e5,
+                              .power = 4,
+                              .p_m = 1300,
+                              .width = .58,
+                              .phi_min = .12,
+                              .phi_max = .58}},
+           q = LAWS[5];
+  (void)state;
+  near(porosity_start(&LAWS[0], &e), 2e8, 1e-12), near(porosity_start(&LAWS[1], &e), 1e6, 1e-12);
+  const double p = porosity_start(&LAWS[2], &e);
+  near(pow(.044e6 / p, (1 + 7e-10 * p) / 8.915) + 1 / .875, 2.5, 1e-12);
+  near(porosity_start(&LAWS[3], &e), pow(10, (.25 + .064) / .084), 1e-12);
+  near(porosity_start(&LAWS[4], &e), 1e6 * pow(.41 * 3, -1 / .09), 1e-12);
+  near(porosity_start(&q, &e), porosity_eval(&q, &e, 2700 / 1.4 * exp(.001), 0, 0, 1.4).e.p, 5e-3);
+  near(porosity_start(&dust, &e), 1300 * pow(.46 / .38 - 1, .58 * log(10)), 1e-12);
+  q.epsilon_alpha.epsilon_e = 0;
+  assert_true(porosity_start(&q, &e) == 0);
+  q = LAWS[2], q.alpha0 = 1.1; /* the curve ends at 1/.875 */
+  assert_true(porosity_start(&q, &e) == 0);
+  q = LAWS[0], q.alpha0 = 1;
+  assert_true(porosity_start(&q, &e) == 0);
+  q = LAWS[0], q.p_alpha.p_e = 0;
+  assert_true(porosity_start(&q, &e) == 0);
+}
+
 /* Wuennemann et al. (2006): d alpha/d e is continuous where the exponential ends; all pores are
  * gone at e_c = 2 (1 - alpha_x)/(kappa alpha_x) + e_x. */
 static void strains(void **state)
@@ -236,10 +268,10 @@ static void broken(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(curves), cmocka_unit_test(strains), cmocka_unit_test(loading),
-      cmocka_unit_test(solid),  cmocka_unit_test(elastic), cmocka_unit_test(sound),
-      cmocka_unit_test(share),  cmocka_unit_test(thermal), cmocka_unit_test(dust),
-      cmocka_unit_test(broken),
+      cmocka_unit_test(curves),  cmocka_unit_test(begin),  cmocka_unit_test(strains),
+      cmocka_unit_test(loading), cmocka_unit_test(solid),  cmocka_unit_test(elastic),
+      cmocka_unit_test(sound),   cmocka_unit_test(share),  cmocka_unit_test(thermal),
+      cmocka_unit_test(dust),    cmocka_unit_test(broken),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
