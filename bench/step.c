@@ -143,8 +143,7 @@ static void check(Sim *sim)
 {
   State host = on_host(sim);
   const State *s = &host;
-  PairRun run = {kernel_sigma(sim->par.kernel, 3), sim->par.alpha, sim->par.beta, 3,
-                 sim->par.pressure == PARAM_PRODUCT};
+  const PairRun run = backend_pair(sim, 3);
   const long most = (double)s->n > MANY ? o.samples / 10 + 1 : o.samples,
              samples = most < s->n ? most : s->n;
   PointField field;

@@ -16,7 +16,8 @@ typedef struct {
   double sigma;       /* kernel_sigma(kern, dimension) */
   double alpha, beta; /* artificial viscosity */
   int dimension;
-  int volumes; /* pressures act on volumes: (p_i + p_j)/(rho_i rho_j) */
+  int volumes;    /* pressures act on volumes: (p_i + p_j)/(rho_i rho_j) */
+  int integrated; /* miscible: stresses come with the squares of their own volumes */
 } PairRun;
 
 typedef struct {
@@ -123,7 +124,8 @@ HD real pair_shear_work(const PairBody *i, PairVector r, PairVector v)
  * run->volumes: (p_i + p_j)/(rho_i rho_j), which has no force where p is the same and rho jumps.
  * miscible: the number-density form (004 eq. 2.51-2.54 with the mass that the viscosity lacks in
  * print): m_i/m_j p_i/rho_i^2 + m_j/m_i p_j/rho_j^2, and each particle's own stress does its work
- * (the variational form), which keeps the entropy across a jump of density. */
+ * (the variational form), which keeps the entropy across a jump of density. run->integrated: V_i^2
+ * S_i C_i + V_j^2 S_j C_j, what goes with gradients of its own volumes. */
 HD PairForce pair_force(PairVector r, const PairBody *i, const PairBody *j, int kern, int line,
                         int solid, int miscible, const PairRun *run)
 {
@@ -140,8 +142,9 @@ HD PairForce pair_force(PairVector r, const PairBody *i, const PairBody *j, int 
   t.x = -p * r.x, t.y = -p * r.y, t.z = -p * r.z, own = -2 * i->p * vr;
   if (solid) {
     PairVector d = pair_shear(i, j, r);
-    t.x += vv * d.x, t.y += vv * d.y, t.z += vv * d.z;
-    if (miscible) own += 2 * vv * pair_shear_work(i, r, v);
+    real ws = miscible && run->integrated ? 1 : vv;
+    t.x += ws * d.x, t.y += ws * d.y, t.z += ws * d.z;
+    if (miscible) own += 2 * ws * pair_shear_work(i, r, v);
   }
   if (!miscible) own = pair_dot(v, t);
   o.fx = f * (t.x - pi * r.x), o.fy = f * (t.y - pi * r.y), o.fz = f * (t.z - pi * r.z);

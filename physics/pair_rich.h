@@ -79,7 +79,12 @@ HD PairRich pair_rich(PairVector r, const PairBody *i, const PairBody *j, const 
   real share = 0.5f * (a->viscosity + b->viscosity);
   real pi = mm * share * viscosity_pi(nu, cs, 0.5f * sum, (real)run->alpha, (real)run->beta);
   real both = mm * (i->inverse_rho * j->inverse_rho);
-  real wp = more->miscible ? 1 : run->volumes ? both : mm, ws = more->squares ? mm : both;
+  real wp = more->miscible ? 1
+            : run->volumes ? both
+                           : mm,
+       ws = more->squares     ? mm
+            : run->integrated ? 1
+                              : both;
   real x = kernel_w(kern, line ? 1 : 3, r1 * real_inverse(h)) * (real)more->over;
   real p = wp * (i->p + j->p), lift = mm * pair_power(x, more->exponent);
   real across = 2 * mm * w * real_inverse(sum);

@@ -49,6 +49,7 @@ int backend_idle(const Sim *sim, const char *member)
          (strcmp(member, "Tmax") == 0 && !sim->heated) ||
          (strcmp(member, "shock") == 0 && !sim->par.viscous_work) ||
          (strcmp(member, "lifted") == 0 && !(sim->par.energy_floor > -1e300)) ||
+         (strcmp(member, "theta") == 0 && !sim->par.shepard) ||
          (strcmp(member, "pull0") == 0 && !(sim->par.gravity_tolerance > 0)) ||
          (strncmp(member, "old_", 4) == 0 && !sim->memory) ||
          (strcmp(member, "active") == 0 && !(sim->solid && sim->par.damage)) ||
@@ -60,6 +61,17 @@ void backend_range(Sim *sim)
 {
   const int fixed = sim->par.smoothing == PARAM_FIXED;
   sim->s.h_min = fixed ? 0 : sim->par.h_min, sim->s.h_max = fixed ? INFINITY : sim->par.h_max;
+}
+
+PairRun backend_pair(const Sim *sim, int dimension)
+{
+  const Param *p = &sim->par;
+  return (PairRun){.sigma = kernel_sigma(p->kernel, dimension),
+                   .alpha = p->alpha,
+                   .beta = p->beta,
+                   .dimension = dimension,
+                   .volumes = p->pressure == PARAM_PRODUCT,
+                   .integrated = p->density == PARAM_MISCIBLE_CONTINUITY};
 }
 
 void backend_look(Sim *sim, int64_t id, char *text, size_t size)

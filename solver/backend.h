@@ -156,8 +156,9 @@ const struct backend *backend_find(const char *device, int *card, Err *err);
  * backend holds an array for it. */
 int backend_idle(const Sim *sim, const char *member);
 
-/* backend_range: the range of h into the state. */
+/* backend_range: the range of h into the state. backend_pair: what pairs share. */
 void backend_range(Sim *sim);
+PairRun backend_pair(const Sim *sim, int dimension);
 
 /* backend_look: the state of one particle as text, for error messages. */
 void backend_look(Sim *sim, int64_t id, char *text, size_t size);

@@ -26,6 +26,10 @@ static inline int conflict_mirrors(const Param *p)
     "without self-gravity no particle lies deepest") \
   C("pressure_form", "density", p->pressure == PARAM_PRODUCT && p->density != PARAM_CONTINUITY, \
     "the product goes with the density by continuity") \
+  C("stress_form", "density", p->stress_form == PARAM_SQUARES && p->density == PARAM_MISCIBLE_CONTINUITY, \
+    "its stress goes with the particles' own volumes") \
+  C("form.shepard", "density", p->shepard && p->density != PARAM_CONTINUITY, \
+    "it is for the density by continuity") \
   C("viscosity.balsara", "viscosity.switch", p->balsara && p->viscosity_switch == RICH_CULLEN_DEHNEN, \
     "it has a limiter of its own") \
   C("stress.artificial", "stress.spacing", p->artificial > 0 && s->rich && !(s->more.over > 0), \
@@ -59,7 +63,7 @@ static inline int conflict_mirrors(const Param *p)
 /* U(key, condition, because): the key, when it is not at its default, has no effect on this run
  * because of `because`: a key, whose value is then said, or a reason in words. */
 #define UNUSED_SETTINGS(U) \
-  U("density_floor", p->density != PARAM_CONTINUITY && p->density_floor <= 1, "density") \
+  U("density_floor", param_summed(p) && p->density_floor <= 1, "density") \
   U("gravity.theta", p->gravity != PARAM_TREE, "gravity.method") \
   U("gravity.G", p->gravity == PARAM_NONE && !s->points.n, "gravity.method") \
   U("gravity.softening", p->gravity == PARAM_NONE, "gravity.method") \
@@ -71,6 +75,7 @@ static inline int conflict_mirrors(const Param *p)
   U("smoothing.most", p->smoothing != PARAM_OVERCORRECTED, "smoothing.mode") \
   U("smoothing.width", p->smoothing != PARAM_OVERCORRECTED, "smoothing.mode") \
   U("stress_form", s->fluid && !s->solid && !s->viscous, "no matter here has a shear stress") \
+  U("form.gradient", !s->tensor, "no matter here needs the gradient of the velocity") \
   U("form.diffusion", p->density != PARAM_CONTINUITY, "density") \
   U("stress.exponent", !(p->artificial > 0), "stress.artificial") \
   U("stress.spacing", !(p->artificial > 0), "stress.artificial") \

@@ -25,7 +25,7 @@ int integrator_rates(Sim *sim, Step *k, Err *err)
 {
   sim->b->pass(sim, PASS_STILL, k);
   if (sim->b->search(sim, err)) return -1;
-  if (k->density != PARAM_CONTINUITY) sim->b->density(sim);
+  if (k->summed) sim->b->density(sim);
   sim->b->pass(sim, PASS_STILL, k);
   sim->b->gradient(sim);
   sim->b->pass(sim, PASS_LOCAL, k);

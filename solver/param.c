@@ -30,8 +30,8 @@ static const CfgRow top[] = {
   {"kernel", CFG_CHOICE, AT(kernel), kernel_words + 1, "wendland_c2", ANY, "SPH kernel"},
   {"precision", CFG_CHOICE, AT(precision), "mixed|double", "mixed", ANY,
    "mixed: pair terms in single precision between exact differences (on the CPU gravity's only), the rest in double"},
-  {"density", CFG_CHOICE, AT(density), "continuity|sum|miscible", "continuity", ANY,
-   "continuity equation, kernel sum, or kernel sum of the number density"},
+  {"density", CFG_CHOICE, AT(density), "continuity|sum|miscible|miscible_continuity", "continuity", ANY,
+   "continuity equation, kernel sum, kernel sum of the number density, or continuity equation of the number density"},
   {"pressure_form", CFG_CHOICE, AT(pressure), "squares|product", "squares", ANY,
    "p_i/rho_i^2 + p_j/rho_j^2 (001 eq. 30), or (p_i + p_j)/(rho_i rho_j): layers of other density stay at rest (continuity)"},
   {"stress_form", CFG_CHOICE, AT(stress_form), "squares|product", "product", ANY,
@@ -79,6 +79,10 @@ static const CfgRow viscosity[] = {
    "f of a kinematic bulk viscosity f h^2 |div v| of fluids under compression (Kley 1999: 0.5)"},
 };
 static const CfgRow form[] = {
+  {"gradient", CFG_CHOICE, AT(gradient_raw), "corrected|raw", "corrected", ANY,
+   "velocity gradient with the tensorial correction (001 eq. 42-44), exact for linear fields, and its adjoint in the stress; or without"},
+  {"shepard", CFG_BOOL, AT(shepard), NULL, "false", ANY,
+   "kernels of pairs normalised against missing neighbours at surfaces: W_ij/sqrt(theta_i theta_j), theta_i = sum V_j W_ij (Shepard)"},
   {"xsph", CFG_REAL, AT(xsph), "1", "0", 0, 1, "particles move with the mean velocity around, by this factor (001 eq. 40)"},
   {"diffusion", CFG_REAL, AT(diffusion), "1", "0", 0, 1,
    "delta of the diffusion of density of Molteni & Colagrossi (2009), h the full support: 0.05 is the 0.1 of codes with half of it"},

@@ -8,7 +8,7 @@
 #include "../lib/cfg.h"
 #include "../lib/part.h"
 
-enum { PARAM_CONTINUITY, PARAM_SUM, PARAM_MISCIBLE };
+enum { PARAM_CONTINUITY, PARAM_SUM, PARAM_MISCIBLE, PARAM_MISCIBLE_CONTINUITY };
 enum { PARAM_SQUARES, PARAM_PRODUCT };
 enum { PARAM_FIXED, PARAM_DENSITY, PARAM_NEIGHBOURS, PARAM_OVERCORRECTED };
 enum { PARAM_NONE, PARAM_TREE, PARAM_DIRECT };
@@ -27,7 +27,7 @@ typedef struct {
   double alpha, beta;
   int viscosity_switch, balsara;
   double viscosity_least;
-  int stress_form, stress_exponent;
+  int stress_form, stress_exponent, gradient_raw, shepard;
   double xsph, diffusion, artificial, spacing;
   double shear, bulk, shakura, aspect, compression;
   double force[3];
@@ -61,6 +61,12 @@ typedef struct {
   PointMass point[PARAM_POINTS]; /* [points] */
   int points;
 } Param;
+
+/* param_summed: whether the density is a kernel sum. */
+static inline int param_summed(const Param *p)
+{
+  return p->density == PARAM_SUM || p->density == PARAM_MISCIBLE;
+}
 
 /* param_defaults: all settings at their defaults. */
 void param_defaults(Param *p);

@@ -108,7 +108,7 @@ HD void passes_density(const State *s, const Step *k, long i)
                               (s->dimension == 3   ? h * h * h
                                : s->dimension == 2 ? h * h
                                                    : h);
-  if (k->density == 0) s->rho[i] *= exp(-s->divv[i] * k->dt);
+  if (!k->summed) s->rho[i] *= exp(-s->divv[i] * k->dt);
   if (s->drho) s->rho[i] += s->drho[i] * k->dt;
   if (s->rho[i] < floor) s->rho[i] = floor;
 }
@@ -369,8 +369,8 @@ HD void pass_settle(const State *s, const Step *k, long i)
 
 /* pass_correct: divv, and the corrected velocity gradient g = raw C with C, the inverse of the
  * moment matrix m (001 eq. 42-44), kept in cm. Dimensions that are held count as the mean of the
- * others. Particles whose neighbours span no volume (det m < 1 % of the cube of the mean
- * eigenvalue) keep the raw gradient. */
+ * others. Particles whose neighbours span no volume (det m < sheet, 1 %, of the cube of the mean
+ * eigenvalue) keep the raw gradient, as all do with form.gradient = raw. */
 HD void pass_correct(const State *s, long i, const double raw[9], Sym m)
 {
   double *g = &s->g[9 * i], mean, det;
@@ -379,7 +379,7 @@ HD void pass_correct(const State *s, long i, const double raw[9], Sym m)
   if (s->dimension < 3) m.zz = 0.5 * (m.xx + m.yy);
   mean = (m.xx + m.yy + m.zz) / 3;
   det = tensor_det(m);
-  if (det > 0.01 * mean * mean * mean) c = tensor_invert(m, det);
+  if (det > s->sheet * mean * mean * mean) c = tensor_invert(m, det);
   passes_keep_stress(&s->cm[6 * i], c);
   s->divv[i] = raw[0] + raw[4] + raw[8];
   for (int a = 0; a < 9; a += 3) {

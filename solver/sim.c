@@ -44,8 +44,8 @@ Step sim_step(const Sim *sim, double dt)
   Step k;
   memset(&k, 0, sizeof k);
   k.dt = dt;
-  k.volumes = p->pressure == PARAM_PRODUCT, k.density = p->density, k.energy = p->energy,
-  k.smoothing = p->smoothing;
+  k.volumes = p->pressure == PARAM_PRODUCT, k.density = p->density, k.summed = param_summed(p),
+  k.energy = p->energy, k.smoothing = p->smoothing;
   k.strength = sim->solid, k.damage = sim->solid && p->damage && !sim->late;
   k.neighbours = p->neighbours, k.h_min = p->h_min, k.h_max = p->h_max;
   k.density_floor = p->density_floor, k.energy_floor = p->energy_floor;
@@ -113,7 +113,7 @@ static int open_common(Sim *sim, const Param *par, const Parts *p, const char *d
   sim->memory = integrator_of(par->integrator)->memory;
   set_bounds(sim, par);
   if (hold_open(sim, p, err)) return -1;
-  sim->miscible = par->density == PARAM_MISCIBLE;
+  sim->miscible = par->density == PARAM_MISCIBLE || par->density == PARAM_MISCIBLE_CONTINUITY;
   if (!(sim->material = material_load(p, err))) return -1;
   for (int k = 0; k < p->materials; k++) {
     const Material *m = &sim->material[k];
@@ -171,6 +171,8 @@ static int hand_over(Sim *sim, const Parts *p, Err *err)
   bad = bad || sim->b->open(sim, &whole, err);
   free(T), free(alpha);
   memcpy(sim->s.force, sim->par.force, sizeof sim->s.force);
+  sim->s.sheet = sim->par.gradient_raw ? INFINITY : 0.01;
+  sim->s.integrated = sim->par.density == PARAM_MISCIBLE_CONTINUITY;
   sim->s.floors = (Floors){sim->par.pressure_floor > -1e300, sim->par.pressure_floor,
                            sim->par.energy_floor, k.density_floor * k.self};
   return bad ? -1 : 0;

@@ -32,6 +32,7 @@
   W(double,  t,      9, "S C, damage included [Pa]") \
   W(double,  pull0,  3, "gravity at the evaluation before (gravity.tolerance) [m/s^2]") \
   W(double,  cl,     1, "longitudinal wave speed [m/s]") \
+  W(double,  theta,  1, "sum of V_j W_ij at loop A, itself included (form.shepard)") \
   W(double,  extra,  8, "PairExtra, of runs with more pair terms")
 /* clang-format on */
 
@@ -69,6 +70,9 @@ typedef struct {
   Floors floors;
   double force[3];  /* constant body force [m/s^2] */
   double centre[3]; /* of the disk, for laws that depend on the distance from it [m] */
+  double sheet;     /* det of a moment matrix, over the cube of its mean eigenvalue, from which on
+                      gradients are corrected; INFINITY: they never are */
+  int integrated;   /* the number density goes by its continuity equation */
 #define STATE_MEMBER(TYPE, MEMBER, ...) TYPE *MEMBER;
   ALL_FIELDS(STATE_MEMBER)
   MOVED_FIELDS(STATE_MEMBER)

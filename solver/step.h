@@ -26,6 +26,7 @@ typedef struct {
   double dt;                                        /* s */
   int density, energy, smoothing, strength, damage; /* modes, see param.h */
   int volumes;                                      /* pressure_form product */
+  int summed;                                       /* density is a kernel sum */
   double neighbours, h_min, h_max, density_floor, energy_floor;
   double self;                                     /* sigma w(0): the kernel's centre */
   double cfl, acceleration, step_density;          /* factors of the limits (limits.h) */

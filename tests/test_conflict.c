@@ -27,6 +27,8 @@ static const Case unused[] = {
      "gravity.every = 2 has no effect: gravity.method = none"},
     {"stress_form=squares", "strength.on=true", "strength.on=true",
      "stress_form = squares has no effect: no matter here has a shear stress"},
+    {"form.gradient=raw", "gravity.method=tree", "gravity.method=tree",
+     "form.gradient = raw has no effect: no matter here needs the gradient of the velocity"},
     {"form.diffusion=0.1", "density=sum", "density=continuity",
      "form.diffusion = 0.1 has no effect: density = sum"},
     {"stress.exponent=2", "stress.artificial=0", "stress.artificial=0.1",
@@ -184,6 +186,11 @@ static const Case conflicts[] = {
     {"pressure_form=product", "density=sum", "density=continuity",
      "pressure_form = product cannot go with density = sum: the product goes with the density by "
      "continuity"},
+    {"stress_form=squares", "density=miscible_continuity", "density=miscible",
+     "stress_form = squares cannot go with density = miscible_continuity: its stress goes with the "
+     "particles' own volumes"},
+    {"form.shepard=true", "density=sum", "density=continuity",
+     "form.shepard = true cannot go with density = sum: it is for the density by continuity"},
     {"viscosity.balsara=true", "viscosity.switch=cullen_dehnen", "viscosity.switch=morris_monaghan",
      "viscosity.balsara = true cannot go with viscosity.switch = cullen_dehnen: it has a limiter "
      "of "
@@ -221,6 +228,7 @@ static const Case conflicts[] = {
 
 /* A run of rock that has all, one of gas with nothing, one of rock alone, one in the plane. */
 static const Sim full = {.solid = 1,
+                         .tensor = 1,
                          .porous = 1,
                          .crushes = 1,
                          .fluid = 1,

@@ -212,7 +212,8 @@ static void send(Sim sim[2])
 static Step any_step(const Sim *sim, uint64_t seed)
 {
   Step k = sim_step(sim, seed % 4 == 3 ? 0 : 0.05);
-  k.density = (int)(3 * rng_uniform(1, seed, 0)), k.energy = (int)(3 * rng_uniform(1, seed, 1));
+  k.density = (int)(4 * rng_uniform(1, seed, 0)), k.summed = k.density % 3 > 0,
+  k.energy = (int)(3 * rng_uniform(1, seed, 1));
   k.smoothing = (int)(4 * rng_uniform(1, seed, 2)), k.dilation = 3,
   k.damage = rng_uniform(1, seed, 3) < 0.7;
   k.strength = rng_uniform(1, seed, 4) < 0.7, k.rates = rng_uniform(1, seed, 5) < 0.5;
@@ -356,6 +357,19 @@ static const LoopCase loop_cases[] = {
      RICH_TOO},
     {"integrator=leapfrog", "density=continuity", "strength.on=true", "kernel=wendland_c2", 3,
      NULL},
+    {"integrator=leapfrog", "density=miscible_continuity", "strength.on=true",
+     "kernel=cubic_spline", 3, RICH_TOO},
+    {"integrator=leapfrog", "density=miscible_continuity", "strength.on=true", "kernel=wendland_c2",
+     3, NULL},
+    {"integrator=leapfrog", "density=miscible_continuity", "strength.on=false",
+     "kernel=wendland_c4", 2, NULL},
+    {"integrator=leapfrog", "density=miscible_continuity", "strength.on=true",
+     "kernel=cubic_spline", 1, NULL},
+    {"integrator=leapfrog", "form.shepard=true", "strength.on=true", "kernel=wendland_c2", 3, NULL},
+    {"integrator=leapfrog", "form.shepard=true", "strength.on=true", "kernel=cubic_spline", 2,
+     RICH},
+    {"integrator=leapfrog", "form.shepard=true", "strength.on=true", "kernel=wendland_c2", 1, NULL},
+    {"integrator=leapfrog", "form.gradient=raw", "strength.on=true", "kernel=wendland_c2", 3, NULL},
     {"integrator=leapfrog", "density=sum", "strength.on=false", "kernel=cubic_spline", 3, NULL},
     {"integrator=leapfrog", "pressure_form=product", "strength.on=true", "kernel=wendland_c2", 3,
      NULL},
@@ -381,7 +395,8 @@ static void loops(Sim sim[2], const char *precision, const char *what)
                                                                              "rhoa",   "delta",
                                                                              "acc",    "du",
                                                                              "signal", "wander",
-                                                                             "sense",  "drho"},
+                                                                             "sense",  "drho",
+                                                                             "theta"},
                            *const rates[] = {"viscosity", "extra"};
   Err err;
   send(sim);
@@ -390,7 +405,7 @@ static void loops(Sim sim[2], const char *precision, const char *what)
     Step k = sim_step(s, 0.01);
     s->b->pass(s, PASS_STILL, &k), s->b->pass(s, PASS_DRIFT, &k);
     if (s->b->search(s, &err)) fail_msg("%s", err.text);
-    if (k.density != PARAM_CONTINUITY) s->b->density(s);
+    if (k.summed) s->b->density(s);
     s->b->gradient(s);
     s->b->pass(s, PASS_ADVANCE, &k);
     s->b->force(s);

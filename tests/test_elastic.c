@@ -57,12 +57,13 @@ static int in_sphere(const double *x, void *data)
 
 /* R = rho0 = c = K = mu = 1, Omega = 2 pi/100; returns L/L0 after `turns`. jitter in units
  * of dx. */
-static double rotating(double dx, double turns, double jitter, double *radius, double *momentum)
+static double rotating(double dx, double turns, double jitter, const char *gradient, double *radius,
+                       double *momentum)
 {
   double omega = 2 * LAB_PI / 100, far = 0;
   long n = lab_lattice(dx, 20, 3, in_sphere, NULL, NULL);
   Parts *p = lab_parts(n, 3, RUBBER);
-  Param par = lab_param("gravity.method=none", "kernel=cubic_spline", NULL);
+  Param par = lab_param("gravity.method=none", "kernel=cubic_spline", gradient, NULL);
   Sim sim;
   Sums a, b;
   lab_lattice(dx, 20, 3, in_sphere, NULL, p->x);
@@ -89,15 +90,18 @@ static double rotating(double dx, double turns, double jitter, double *radius, d
 
 static void sphere(void **state)
 {
-  double r, mom, l = rotating(.2, 1, 0, &r, &mom);
+  double r, mom, l = rotating(.2, 1, 0, "form.gradient=corrected", &r, &mom);
   (void)state;
   print_message("L/L0 - 1 = %.2e, radius %.5f, momentum %.1e\n", l - 1, r, mom);
   assert_true(fabs(l - 1) < 1e-8);
   assert_true(r < 1.005 && r > .98);
   assert_true(mom < 1e-12);
-  l = rotating(.2, 1, .2, &r, &mom);
+  l = rotating(.2, 1, .2, "form.gradient=corrected", &r, &mom);
   print_message("jittered: L/L0 - 1 = %.2e\n", l - 1);
   assert_true(fabs(l - 1) < 1e-7);
+  l = rotating(.2, .1, 0, "form.gradient=raw", &r, &mom);
+  print_message("raw gradients, a tenth of a turn: L/L0 = %.3f\n", l);
+  assert_true(l < .8 && mom < 1e-12);
 }
 
 /* S of a rigidly rotating element is Q S0 Q^T; a literal 001 eq. 9 gives S_xy of the other

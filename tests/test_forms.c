@@ -62,7 +62,7 @@ static void standard(void **state)
   for (int kern = 0; kern < KERNEL_COUNT; kern++)
     for (int dim = 1; dim <= 3; dim++)
       for (long n = 0; n < 200; n++) {
-        PairRun run = {kernel_sigma(kern, dim), .5, .7, dim, 0};
+        PairRun run = {kernel_sigma(kern, dim), .5, .7, dim, 0, 0};
         PairMore more = {.miscible = n & 1, .own = n & 1, .exponent = 4, .over = 2};
         const PairExtra none = {1, 1, 0, 0, 0, 0, 0, 0};
         Pair p = pair(n, dim);
@@ -85,7 +85,7 @@ static void balance(void **state)
   for (int kern = 0; kern < KERNEL_COUNT; kern++)
     for (int dim = 1; dim <= 3; dim++)
       for (long n = 0; n < 400; n++) {
-        PairRun run = {kernel_sigma(kern, dim), .5, .7, dim, n & 1};
+        PairRun run = {kernel_sigma(kern, dim), .5, .7, dim, n & 1, n >> 4 & 1};
         PairMore more = {n >> 3 & 1, n >> 1 & 1, n >> 2 & 1, (int)(n % 16), 1.7, {.1, .2, .3}};
         Pair p = pair(n, dim);
         PairVector back = {-p.r.x, -p.r.y, -p.r.z};
@@ -163,7 +163,7 @@ static double loops(int dim, int kern)
   sim.b->pass(&sim, PASS_STILL, &k), sim.b->gradient(&sim), sim.b->pass(&sim, PASS_LOCAL, &k);
   sim.b->force(&sim);
   State s = lab_state(&sim);
-  PairRun run = {kernel_sigma(kern, dim), par.alpha, par.beta, dim, 1};
+  const PairRun run = backend_pair(&sim, dim);
   for (long i = 0; i < s.n; i++) {
     double f[3] = {0}, w[3] = {0}, work = 0, rate = 0, sense = 0, size = 1e-30;
     const double *e = &s.extra[8 * i];
@@ -219,6 +219,11 @@ static const Kept kept[] = {
     {"form.diffusion=0.05", WATER, 0, 1e-3},
     {"form.xsph=0.5", WATER, 1e-5, 1e-3},
     {"stress.artificial=0.3", WATER, 0, 1e-3},
+    {"density=miscible_continuity", WATER, 0, 1e-3},
+    {"density=miscible_continuity", RUBBER, 1e-4, 1e-3},
+    {"form.shepard=true", WATER, 0, 1e-3},
+    {"form.shepard=true", RUBBER, 3e-3, 1e-3},
+    {"form.gradient=raw", RUBBER, 1, 1e-3},
     {"stress_form=product", RUBBER, 3e-5, 1e-3},
     {"stress_form=squares", RUBBER, 1e-3, 1e-3},
     {"stress.artificial=0.3", RUBBER, 3e-3, 1e-3},

@@ -88,6 +88,7 @@ static const Case cases[] = {
     {"segment", "gravity.method=none", "density=continuity", .8, 32},
     {"segment", "gravity.method=none", "density=sum", .8, 32},
     {"segment", "gravity.method=none", "density=miscible", .8, 32},
+    {"segment", "gravity.method=none", "density=miscible_continuity", .8, 32},
     {"rubber", "gravity.method=none", "density=continuity", 2, 16},
     {"liquid", "gravity.method=direct", "density=continuity", 2, 16},
     {"liquid", "gravity.method=direct", "density=miscible", 2, 32},

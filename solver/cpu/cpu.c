@@ -100,9 +100,7 @@ static int cpu_open(Sim *sim, const Parts *p, Err *err)
   c->record = malloc((n + 1) * CPU_RECORD * sizeof(double));
   c->share = (n + 1) * 9 * sizeof(double);
   c->scratch = malloc(c->share * (size_t)omp_get_max_threads());
-  c->run.sigma = kernel_sigma(sim->par.kernel, p->dimension);
-  c->run.alpha = sim->par.alpha, c->run.beta = sim->par.beta, c->run.dimension = p->dimension;
-  c->run.volumes = sim->par.pressure == PARAM_PRODUCT;
+  c->run = backend_pair(sim, p->dimension);
   if (!c->order || !c->record || !c->scratch || alloc_state(sim)) {
     cpu_close(sim);
     return err_set(err, "not enough memory for %ld particles", p->n);

@@ -47,8 +47,7 @@ static Flow flow_of(const State *s, long i)
   const double *y = &s->y[3 * i], *v = &s->v[3 * o];
   double w[3];
   image_signs(s, i, w);
-  Flow f = {y[0],        y[1],        y[2],     w[0] * v[0],
-            w[1] * v[1], w[2] * v[2], s->ha[i], s->m[i] / s->rhoa[o]};
+  Flow f = {y[0], y[1], y[2], w[0] * v[0], w[1] * v[1], w[2] * v[2], s->ha[o], passes_volume(s, o)};
   return f;
 }
 
@@ -121,11 +120,13 @@ static inline __attribute__((always_inline)) void gradient_of(const State *s, lo
         gzx += o.gzx, gzy += o.gzy, gzz += o.gzz;
     mxx += o.mxx, mxy += o.mxy, mxz += o.mxz, myy += o.myy, myz += o.myz, mzz += o.mzz;
   }
+  const double w = passes_share(s, i);
   if (!solid) {
-    s->divv[i] = gxx;
+    s->divv[i] = w * gxx;
   } else {
-    double raw[9] = {gxx, gxy, gxz, gyx, gyy, gyz, gzx, gzy, gzz};
-    Sym m = {mxx, mxy, mxz, myy, myz, mzz};
+    const double raw[9] = {w * gxx, w * gxy, w * gxz, w * gyx, w * gyy,
+                           w * gyz, w * gzx, w * gzy, w * gzz};
+    const Sym m = {w * mxx, w * mxy, w * mxz, w * myy, w * myz, w * mzz};
     pass_correct(s, i, raw, m);
   }
 }
@@ -184,13 +185,14 @@ static void keep_rich(const Sim *sim, long i, const double w[3], double sense, d
 {
   const State *s = &sim->s;
   const Cpu *c = sim->own;
+  const double part = passes_part(s, i);
   if (s->wander)
     for (int d = 0; d < 3; d++) s->wander[3 * i + d] = sim->par.xsph * w[d] / s->m[i];
-  if (s->drho) s->drho[i] = sim->par.diffusion * rate;
+  if (s->drho) s->drho[i] = sim->par.diffusion * part * rate;
   if (s->sense) {
     const double self =
-        s->m[i] * pair_weight(sim->par.kernel, s->dimension == 1, &c->run, 0, s->h[i]);
-    s->sense[i] = (sense + (s->divv[i] < 0 ? -self : self)) / s->rho[i];
+        passes_mass(s, i) * pair_weight(sim->par.kernel, s->dimension == 1, &c->run, 0, s->h[i]);
+    s->sense[i] = (sense + (s->divv[i] < 0 ? -self : self)) * part / s->rho[i];
   }
 }
 
@@ -261,6 +263,25 @@ static inline __attribute__((always_inline)) void densities(const Sim *sim, long
   }
 }
 
+/* theta at y over a range: sum V_j W_ij, the particle itself included. */
+static inline __attribute__((always_inline)) void thetas(const Sim *sim, long from, long to,
+                                                         int kern, int line)
+{
+  const Cpu *c = sim->own;
+  const State *s = &sim->s;
+  const double *record = c->record;
+  for (long i = from; i < to; i++) {
+    const double *a = record + FLOW * i;
+    double theta = a[7] * pair_weight(kern, line, &c->run, 0, a[6]);
+    for (int64_t k = c->ngb.start[i]; k < c->ngb.start[i + 1]; k++) {
+      const double *b = record + (size_t)FLOW * c->ngb.list[k];
+      const PairVector r = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+      theta += b[7] * pair_weight(kern, line, &c->run, pair_dot(r, r), 0.5 * (a[6] + b[6]));
+    }
+    s->theta[i] = theta;
+  }
+}
+
 /* The stamps: a loop over a range is a function of its own, made with the literals it needs before
  * OpenMP comes in (an outlined loop would carry them as variables). A line (1D) has one instance of
  * each loop, the most general. */
@@ -279,6 +300,8 @@ typedef void Range(const Sim *sim, Pack *b, long from, long to);
   STAMP(force_solid_miscible_##NAME, forces(sim, b, from, to, KERNEL_##CAPITAL, 0, 1, 1)) \
   STAMP(rich_line_##NAME, riches(sim, b, from, to, KERNEL_##CAPITAL, 1)) \
   STAMP(rich_space_##NAME, riches(sim, b, from, to, KERNEL_##CAPITAL, 0)) \
+  STAMP(theta_line_##NAME, thetas(sim, from, to, KERNEL_##CAPITAL, 1)) \
+  STAMP(theta_space_##NAME, thetas(sim, from, to, KERNEL_##CAPITAL, 0)) \
   STAMP(density_line_##NAME, densities(sim, from, to, KERNEL_##CAPITAL, 1)) \
   STAMP(density_space_##NAME, densities(sim, from, to, KERNEL_##CAPITAL, 0))
 KERNELS(STAMPS)
@@ -289,10 +312,12 @@ KERNELS(STAMPS)
   {force_line_##NAME, force_fluid_##NAME, force_solid_##NAME, force_fluid_miscible_##NAME, \
    force_solid_miscible_##NAME},
 #define RICH_ROW(CAPITAL, NAME, ...) {rich_line_##NAME, rich_space_##NAME},
+#define THETA_ROW(CAPITAL, NAME, ...) {theta_line_##NAME, theta_space_##NAME},
 #define DENSITY_ROW(CAPITAL, NAME, ...) {density_line_##NAME, density_space_##NAME},
 static Range *const gradient_stamps[KERNEL_COUNT][3] = {KERNELS(GRADIENT_ROW)};
 static Range *const force_stamps[KERNEL_COUNT][5] = {KERNELS(FORCE_ROW)};
 static Range *const rich_stamps[KERNEL_COUNT][2] = {KERNELS(RICH_ROW)};
+static Range *const theta_stamps[KERNEL_COUNT][2] = {KERNELS(THETA_ROW)};
 static Range *const density_stamps[KERNEL_COUNT][2] = {KERNELS(DENSITY_ROW)};
 /* clang-format on */
 
@@ -316,6 +341,11 @@ void cpu_gradient(Sim *sim)
 {
   int which = sim->s.dimension == 1 ? 0 : sim->tensor ? 2 : 1;
   backend_begin(sim, TIMER_A);
+  if (sim->s.theta) {
+    for (long i = 0; i < sim->s.n; i++) sim->s.theta[i] = 1;
+    records(sim, 0);
+    over(sim, theta_stamps[sim->par.kernel][sim->s.dimension != 1]);
+  }
   records(sim, 0);
   over(sim, gradient_stamps[sim->par.kernel][which]);
   backend_end(sim, TIMER_A);

@@ -33,8 +33,10 @@ typedef struct {
   PairRun run;
   const Root *root;
   Units unit;
-  double rho, push;   /* unit of density [kg/m^D]; code units a unit of State.push */
-  int kern, miscible; /* for the general instances; the form of the density */
+  double rho;           /* unit of density [kg/m^D] */
+  double push, shear;   /* code units a unit of State.push, of State.t */
+  double volume, share; /* code units a unit of passes_volume; of passes_share, in that unit */
+  int kern, miscible;   /* for the general instances; the form of the density */
   PairMore more;
   double xsph, diffusion;
 } Loop;
@@ -60,69 +62,7 @@ static __device__ __forceinline__ void seen(const State &s, long i, const double
   for (int d = 0; d < 3; d++) w[d] *= v[d];
 }
 
-/* Records for loop A: y with ha, v with the volume; they have no w. */
-static __global__ void pack_flow(Loop a)
-{
-  long i = self_of();
-  const State &s = a.s;
-  const double il = 1 / a.unit.length, iv = 1 / a.unit.speed, *y = &s.y[3 * i];
-  if (i >= s.all) return;
-  const long o = image_owner(&s, i);
-  double v[3];
-  seen(s, i, &s.v[3 * o], v);
-  place_set(a.r.x, i, (y[0] - a.root->origin[0]) * il, (y[1] - a.root->origin[1]) * il,
-            (y[2] - a.root->origin[2]) * il, (real)(s.ha[i] * il), 0);
-  place_set(a.r.v, i, v[0] * iv, v[1] * iv, v[2] * iv,
-            (real)(s.m[i] / s.rhoa[o] * a.rho / a.unit.mass), 0);
-}
-
-/* Records for loop B: x with h and m; v, rho | cs, signal, p, dxx (fluid 1/rho) | rest of d. */
-template <int solid> static __global__ void pack_body(Loop a)
-{
-  long i = self_of();
-  const State &s = a.s;
-  const double il = 1 / a.unit.length, iv = 1 / a.unit.speed, it = iv * iv / a.rho;
-  const double *x = &s.x[3 * i];
-  if (i >= s.all) return;
-  const long o = image_owner(&s, i);
-  const double *t = &s.t[9 * o];
-  double v[3], w[3];
-  seen(s, i, &s.vp[3 * o], v);
-  image_signs(&s, i, w);
-  place_set(a.r.x, i, (x[0] - a.root->origin[0]) * il, (x[1] - a.root->origin[1]) * il,
-            (x[2] - a.root->origin[2]) * il, (real)(s.h[i] * il), (real)(s.m[i] / a.unit.mass));
-  quad_set(a.r.q[0], i, v[0] * iv, v[1] * iv, v[2] * iv, s.rho[o] / a.rho);
-  quad_set(a.r.q[1], i, s.cs[o] * iv, s.cl[o] * iv, s.push[o] * a.push,
-           solid ? t[0] * it : a.rho / s.rho[o]);
-  if (!solid) return;
-  const double xy = w[0] * w[1] * it, xz = w[0] * w[2] * it, yz = w[1] * w[2] * it;
-  quad_set(a.r.q[2], i, t[1] * xy, t[2] * xz, t[3] * xy, t[4] * it);
-  quad_set(a.r.q[3], i, t[5] * yz, t[6] * xz, t[7] * yz, t[8] * it);
-}
-
-/* The same of runs with more pair terms: stress as `squares` has it, PairExtra. */
-static __global__ void pack_rich(Loop a)
-{
-  long i = self_of();
-  const State &s = a.s;
-  const double il = 1 / a.unit.length, iv = 1 / a.unit.speed, iz = iv * iv * a.rho;
-  const double it = a.more.squares ? iz : iv * iv / a.rho;
-  if (i >= s.all) return;
-  const long o = image_owner(&s, i);
-  const double *x = &s.x[3 * i], *t = &s.t[9 * o], *e = &s.extra[8 * o];
-  double v[3], w[3];
-  seen(s, i, &s.vp[3 * o], v);
-  image_signs(&s, i, w);
-  const double xy = w[0] * w[1], xz = w[0] * w[2], yz = w[1] * w[2];
-  place_set(a.r.x, i, (x[0] - a.root->origin[0]) * il, (x[1] - a.root->origin[1]) * il,
-            (x[2] - a.root->origin[2]) * il, (real)(s.h[i] * il), (real)(s.m[i] / a.unit.mass));
-  quad_set(a.r.q[0], i, v[0] * iv, v[1] * iv, v[2] * iv, s.rho[o] / a.rho);
-  quad_set(a.r.q[1], i, s.cs[o] * iv, s.cl[o] * iv, s.push[o] * a.push, t[0] * it);
-  quad_set(a.r.q[2], i, t[1] * xy * it, t[2] * xz * it, t[3] * xy * it, t[4] * it);
-  quad_set(a.r.q[3], i, t[5] * yz * it, t[6] * xz * it, t[7] * yz * it, t[8] * it);
-  quad_set(a.r.q[4], i, e[0], e[1], e[2] * iz, e[3] * xy * iz);
-  quad_set(a.r.q[5], i, e[4] * xz * iz, e[5] * iz, e[6] * yz * iz, e[7] * iz);
-}
+#include "pack.cuh"
 
 template <class T> static __device__ __forceinline__ T from_lane(T x, int k)
 {
@@ -135,6 +75,13 @@ static __device__ __forceinline__ PairGradient add_two(PairGradient a, PairGradi
   a.gzx += b.gzx, a.gzy += b.gzy, a.gzz += b.gzz;
   a.mxx += b.mxx, a.mxy += b.mxy, a.mxz += b.mxz, a.myy += b.myy, a.myz += b.myz, a.mzz += b.mzz;
   return a;
+}
+
+static __device__ __forceinline__ void scale(PairGradient *a, real w)
+{
+  a->gxx *= w, a->gxy *= w, a->gxz *= w, a->gyx *= w, a->gyy *= w, a->gyz *= w;
+  a->gzx *= w, a->gzy *= w, a->gzz *= w;
+  a->mxx *= w, a->mxy *= w, a->mxz *= w, a->myy *= w, a->myz *= w, a->mzz *= w;
 }
 
 /* Each lane adds what the lane with the other bit k has. */
@@ -150,7 +97,8 @@ static __device__ __forceinline__ void add_from(PairGradient *a, int k)
 
 /* A loop is a struct with two functions: sum, over entries from, from + step, ... of the list of i,
  * and keep, which makes of the whole sum what the loop is for. */
-template <int kern, int line, int solid> struct Gradient {
+/* weighted: passes_share is not 1. */
+template <int kern, int line, int solid, int weighted> struct Gradient {
   typedef PairGradient Sum;
 
   static __device__ __forceinline__ PairGradient sum(const Loop &a, long i, int from, int step)
@@ -177,6 +125,7 @@ template <int kern, int line, int solid> struct Gradient {
   static __device__ __forceinline__ void keep(const Loop &a, long i, PairGradient g)
   {
     const double rate = a.unit.speed / a.unit.length;
+    if (weighted) scale(&g, (real)(passes_share(&a.s, i) * a.share));
     if (!solid) {
       a.s.divv[i] = rate * g.gxx;
     } else {
@@ -316,69 +265,21 @@ template <int kern, int line> struct Richly {
   static __device__ __forceinline__ void keep(const Loop &a, long i, Riches f)
   {
     const State &s = a.s;
-    const double moved = a.xsph * a.unit.mass * a.unit.speed / s.m[i];
+    const double moved = a.xsph * a.unit.mass * a.unit.speed / s.m[i], part = passes_part(&s, i);
     real h, m;
     Force<kern, line, 1, 0>::keep(a, i, f.f);
     if (s.wander)
       s.wander[3 * i] = moved * f.wx, s.wander[3 * i + 1] = moved * f.wy,
                    s.wander[3 * i + 2] = moved * f.wz;
-    if (s.drho) s.drho[i] = a.diffusion * f.rate * a.rho * a.unit.speed / a.unit.length;
+    if (s.drho) s.drho[i] = a.diffusion * part * f.rate * a.rho * a.unit.speed / a.unit.length;
     if (!s.sense) return;
     place_get(a.r.x, i, &h, &m);
     const real own = m * pair_weight(line ? a.kern : kern, line, &a.run, 0, h);
-    s.sense[i] = (f.sense + (s.divv[i] < 0 ? -own : own)) * a.rho / s.rho[i];
+    s.sense[i] = (f.sense + (s.divv[i] < 0 ? -own : own)) * part * a.rho / s.rho[i];
   }
 };
 
-/* Kernel sums: rho, delta, and rhoa, the mean of rho before and after (cpu/loops.c). */
-typedef struct {
-  double delta, rho;
-} Density;
-
-static __device__ __forceinline__ Density add_two(Density a, Density b)
-{
-  a.delta += b.delta, a.rho += b.rho;
-  return a;
-}
-
-static __device__ __forceinline__ void add_from(Density *a, int k)
-{
-  const Density b = {from_lane(a->delta, k), from_lane(a->rho, k)};
-  *a = add_two(*a, b);
-}
-
-template <int kern, int line> struct Densities {
-  typedef Density Sum;
-
-  static __device__ __forceinline__ Density sum(const Loop &a, long i, int from, int step)
-  {
-    const int n = a.count[i];
-    const uint32_t *list = list_of(a, i);
-    real hi, hj, m;
-    const Place xi = place_get(a.r.x, i, &hi, &m);
-    Density sum = {0, 0};
-    for (int k = from; k < n; k += step) {
-      const PairVector r = place_between(xi, place_get(a.r.x, neighbour(list, k), &hj, &m));
-      const real w =
-          pair_weight(line ? a.kern : kern, line, &a.run, pair_dot(r, r), 0.5f * (hi + hj));
-      sum.delta += w, sum.rho += m * w;
-    }
-    return sum;
-  }
-
-  static __device__ __forceinline__ void keep(const Loop &a, long i, Density sum)
-  {
-    const State &s = a.s;
-    const double before = s.rho[i];
-    real h, m;
-    place_get(a.r.x, i, &h, &m);
-    const real own = pair_weight(line ? a.kern : kern, line, &a.run, 0, h);
-    sum.delta += own, sum.rho += m * own;
-    s.delta[i] = sum.delta * a.rho / a.unit.mass;
-    s.rho[i] = a.miscible ? s.m[i] * s.delta[i] : sum.rho * a.rho;
-    s.rhoa[i] = sqrt(before * s.rho[i]);
-  }
-};
+#include "sums.cuh"
 
 /* A thread a particle. */
 template <class Of> static __global__ void each(Loop a)
@@ -401,17 +302,6 @@ template <class Of> static __global__ void crowded(Loop a)
   }
 }
 
-/* Places for the density sums: x with h and m. */
-static __global__ void pack_places(Loop a)
-{
-  long i = self_of();
-  const State &s = a.s;
-  const double il = 1 / a.unit.length, *x = &s.x[3 * i];
-  if (i >= s.all) return;
-  place_set(a.r.x, i, (x[0] - a.root->origin[0]) * il, (x[1] - a.root->origin[1]) * il,
-            (x[2] - a.root->origin[2]) * il, (real)(s.h[i] * il), (real)(s.m[i] / a.unit.mass));
-}
-
 /* The stamps: the kernel for most particles, and that for the crowded. */
 /* clang-format off */
 typedef void (*Run)(Loop);
@@ -420,20 +310,24 @@ typedef struct {
 } Stamp;
 #define STAMP(...) {each<__VA_ARGS__>, crowded<__VA_ARGS__>}
 #define GRADIENT_ROW(CAPITAL, ...) \
-  {STAMP(Gradient<KERNEL_##CAPITAL, 0, 0>), STAMP(Gradient<KERNEL_##CAPITAL, 0, 1>)},
+  {STAMP(Gradient<KERNEL_##CAPITAL, 0, 0, 0>), STAMP(Gradient<KERNEL_##CAPITAL, 0, 1, 0>), \
+   STAMP(Gradient<KERNEL_##CAPITAL, 0, 0, 1>), STAMP(Gradient<KERNEL_##CAPITAL, 0, 1, 1>)},
 #define FORCE_ROW(CAPITAL, ...) \
   {STAMP(Force<KERNEL_##CAPITAL, 0, 0, 0>), STAMP(Force<KERNEL_##CAPITAL, 0, 1, 0>), \
    STAMP(Force<KERNEL_##CAPITAL, 0, 0, 1>), STAMP(Force<KERNEL_##CAPITAL, 0, 1, 1>)},
 #define RICH_ROW(CAPITAL, ...)    STAMP(Richly<KERNEL_##CAPITAL, 0>),
 #define DENSITY_ROW(CAPITAL, ...) STAMP(Densities<KERNEL_##CAPITAL, 0>),
-static const Stamp gradient_stamps[KERNEL_COUNT][2] = {KERNELS(GRADIENT_ROW)};
+#define THETA_ROW(CAPITAL, ...)   STAMP(Thetas<KERNEL_##CAPITAL, 0>),
+static const Stamp gradient_stamps[KERNEL_COUNT][4] = {KERNELS(GRADIENT_ROW)};
 static const Stamp force_stamps[KERNEL_COUNT][4] = {KERNELS(FORCE_ROW)};
 static const Stamp rich_stamps[KERNEL_COUNT] = {KERNELS(RICH_ROW)};
 static const Stamp density_stamps[KERNEL_COUNT] = {KERNELS(DENSITY_ROW)};
-static const Stamp gradient_line = STAMP(Gradient<0, 1, 1>);
+static const Stamp theta_stamps[KERNEL_COUNT] = {KERNELS(THETA_ROW)};
+static const Stamp gradient_line = STAMP(Gradient<0, 1, 1, 1>);
 static const Stamp force_line[2] = {STAMP(Force<0, 1, 1, 0>), STAMP(Force<0, 1, 1, 1>)};
 static const Stamp rich_line = STAMP(Richly<0, 1>);
 static const Stamp density_line = STAMP(Densities<0, 1>);
+static const Stamp theta_line = STAMP(Thetas<0, 1>);
 /* clang-format on */
 
 static Loop loop_of(const Sim *sim)
@@ -452,6 +346,11 @@ static Loop loop_of(const Sim *sim)
             : a.run.volumes ? 1
                             : a.rho * a.rho) /
            (a.rho * c->unit.speed * c->unit.speed);
+  a.shear = (sim->more.squares  ? a.rho * a.rho
+             : a.run.integrated ? 1 / (volume * volume)
+                                : 1) /
+            (a.rho * c->unit.speed * c->unit.speed);
+  a.volume = a.run.integrated ? 1 : 1 / volume, a.share = a.run.integrated ? 1 / volume : 1;
   a.more = sim->more, a.xsph = sim->par.xsph, a.diffusion = sim->par.diffusion;
   for (int k = 0; k < 3; k++) a.more.g[k] *= c->unit.length / (c->unit.speed * c->unit.speed);
   a.kern = sim->par.kernel, a.miscible = !!sim->miscible;
@@ -471,9 +370,13 @@ static void run_loop(Sim *sim, Run pack, const Stamp *loop)
 
 static void gradient(Sim *sim)
 {
+  const int weighted = sim->s.integrated || sim->s.theta;
+  if (sim->s.theta)
+    run_loop(sim, pack_volumes,
+             sim->s.dimension == 1 ? &theta_line : &theta_stamps[sim->par.kernel]);
   run_loop(sim, pack_flow,
            sim->s.dimension == 1 ? &gradient_line
-                                 : &gradient_stamps[sim->par.kernel][!!sim->tensor]);
+                                 : &gradient_stamps[sim->par.kernel][!!sim->tensor + 2 * weighted]);
 }
 
 static void density(Sim *sim)

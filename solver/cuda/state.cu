@@ -57,7 +57,7 @@ static int role_of(const Sim *sim, const char *name, int role)
             line = sim->s.dimension == 1;
   if (backend_idle(sim, name)) return IDLE;
   if (among("frag clump", name)) return IDLE; /* what only tools know */
-  if (p->density == PARAM_CONTINUITY && among("delta", name)) return IDLE;
+  if (!param_summed(p) && among("delta", name)) return IDLE;
   if (!pulls && fresh && among("pull", name)) return IDLE;
   if (sim->slots > 0) return role;
   if (among("ds", name)) return IDLE;
@@ -226,9 +226,7 @@ int cuda_state_open(Sim *sim, const Parts *p, Err *err)
 {
   Cuda *c = cuda_of(sim);
   c->unit = units_of(sim, p);
-  c->run.sigma = kernel_sigma(sim->par.kernel, p->dimension);
-  c->run.alpha = sim->par.alpha, c->run.beta = sim->par.beta, c->run.dimension = p->dimension;
-  c->run.volumes = sim->par.pressure == PARAM_PRODUCT;
+  c->run = backend_pair(sim, p->dimension);
   return alloc(sim, p, err) || fill(sim, p, err) ? -1 : 0;
 }
 

@@ -51,7 +51,7 @@ static int step(Sim *sim, double *dt, Err *err)
   k.pull = closing(sim, *dt) - 1;
   sim->b->pass(sim, PASS_DRIFT, &k);
   if (sim->b->search(sim, err)) return -1;
-  if (k.density != PARAM_CONTINUITY) sim->b->density(sim);
+  if (k.summed) sim->b->density(sim);
   sim->b->gradient(sim);
   sim->b->pass(sim, PASS_ADVANCE, &k);
   sim->b->force(sim);
