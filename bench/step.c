@@ -76,13 +76,14 @@ static State on_host(Sim *sim)
   s.cs = fetch(sim, d->cs, 1), s.cl = fetch(sim, d->cl, 1), s.push = fetch(sim, d->push, 1);
   s.t = fetch(sim, d->t, 9), s.du = fetch(sim, d->du, 1);
   s.extra = fetch(sim, d->extra, PAIR_EXTRA);
+  if (d->theta) s.theta = fetch(sim, d->theta, 1);
   return s;
 }
 
 static void free_host(State *s)
 {
   free(s->x), free(s->vp), free(s->h), free(s->m), free(s->rho), free(s->cs), free(s->cl);
-  free(s->push), free(s->t), free(s->acc), free(s->du), free(s->extra);
+  free(s->push), free(s->t), free(s->acc), free(s->du), free(s->extra), free(s->theta);
 }
 
 /* Why the accelerations are not the sum of what check adds up; NULL: they are. */
@@ -131,8 +132,8 @@ static void feel(const Sim *sim, const State *s, const PairRun *run, long i, lon
   const PairForce p = sim->rich
                           ? pair_rich(d, &me, &other, &e[i], &e[j], kernel, 0, run, &sim->more).f
                           : pair_force(d, &me, &other, kernel, 0, sim->tensor, sim->miscible, run);
-  const double r = sqrt(pair_dot(d, d)), h = .5 * (me.h + other.h), w = 1 / me.m;
-  const double g = sim->par.G * other.m * pull_over_r(&sim->par, r, h);
+  const double r = sqrt(pair_dot(d, d)), h = .5 * (me.h + other.h), w = 1 / s->m[i];
+  const double g = sim->par.G * s->m[j] * pull_over_r(&sim->par, r, h);
   f->a[0] += w * p.fx - g * d.x, f->a[1] += w * p.fy - g * d.y, f->a[2] += w * p.fz - g * d.z;
   f->du += w * p.work, f->work += fabs(w * p.work);
 }
