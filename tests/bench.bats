@@ -4,7 +4,8 @@
 
 setup() {
   cd "$BATS_TEST_DIRNAME/.."
-  mock=$BATS_TEST_TMPDIR/bin && mkdir "$mock"
+  mock=$BATS_TEST_TMPDIR/bin
+  mkdir "$mock"
   step=${B:-$PWD/build} step=${step%/gpu}/bench/step
   PATH=$mock:$PATH
   printf '#!/bin/bash\nprintf "# check\\nstep\\t0.100 ms\\t1 ns a particle\\n"\n' >"$mock/step"
@@ -26,7 +27,8 @@ setup() {
     '"2","void cub::CUB_1::DeviceScanKernel<cub::X<int>, int *>(int *, T2)","9.0","50000","1","2","3","4","5","6","7","0","0"'
   run bench/ncu step 1000 solid cuda
   echo "$output"
-  [ "$status" = 0 ] && [ "${#lines[@]}" = 6 ]
+  [ "$status" = 0 ]
+  [ "${#lines[@]}" = 6 ]
   [ "${lines[1]}" = $'DeviceScanKernel\t1\t50.0\t1.0\t2.0\t3.0\t4.0\t5.0\t6.0\t7\t0' ]
   [ "${lines[2]}" = $'each<Gradient<1, 0, 1>>\t2\t40.0\t20.0\t20.0\t30.0\t40.0\t50.0\t50.0\t72\t1024' ]
   [ "${lines[3]}" = $'# all\t3\t90.0' ]
@@ -36,11 +38,13 @@ setup() {
 @test "ncu: no kernels, no bench, no ncu: one reason, and no table" {
   rows
   run bench/ncu step
-  [ "$status" = 1 ] && [[ ${lines[-1]} == "bench/ncu: no kernel was profiled: "* ]]
+  [ "$status" = 1 ]
+  [[ ${lines[-1]} == "bench/ncu: no kernel was profiled: "* ]]
   rows '"0","void k()","9.0","1","1","1","1","1","1","1","1","1","1"'
   sed -i 's/metrics=\$2/metrics=${2\/dram\/ram}/' "$mock/ncu"
   run bench/ncu step
-  [ "$status" = 1 ] && [[ $output == *"no column dram__throughput"* ]]
+  [ "$status" = 1 ]
+  [[ $output == *"no column dram__throughput"* ]]
   printf '#!/bin/bash\necho no card; exit 1\n' >"$mock/step"
   run bench/ncu step
   [ "$status" = 1 ] && [ "$output" = $'no card\nbench/ncu: \'step\' failed' ]

@@ -45,45 +45,61 @@ expect() { [ "$1" = "$2" ] || { echo "expected '$1', got '$2'"; return 1; }; }
   bodies
   expect 'mkshape mksphere mksphere mksphere mksphere relax relax relax relax ' "$(called)"
   for b in ceres vesta moon protoearth rubble; do [ -s "$OUT/$b-n100-s1.h5" ]; done
-  [ -s "$OUT/moon-n100-s1.relax.tsv" ] && [ -s "$OUT/moon-n100-s1.profile.tsv" ]
-  bodies && expect '' "$(called)"
-  bodies SEED='1 2' BODIES=moon && expect 'mksphere relax ' "$(called)"
-  bodies FORM=miscible BODIES='moon rubble' && grep -q 'relax --set density=miscible --proof 2tff' "$CALLS"
+  [ -s "$OUT/moon-n100-s1.relax.tsv" ]
+  [ -s "$OUT/moon-n100-s1.profile.tsv" ]
+  bodies
+  expect '' "$(called)"
+  bodies SEED='1 2' BODIES=moon
+  expect 'mksphere relax ' "$(called)"
+  REACHED='100000 0.001 0.3 0.005 106' bodies FORM=miscible BODIES='moon rubble'
+  grep -q 'relax --set density=miscible --proof 2tff' "$CALLS"
   expect 'mksphere relax ' "$(called)" && [ -s "$OUT/moon-n100-s1-miscible.h5" ]
 }
 
 @test "by name, with flaws of the same seed; a recipe of one's own" {
   mock
   bodies "$OUT/vesta-n200-s7.flaws.h5"
-  grep -q -- '--spin 5.342h --hydrostatic -n 200 --rotate 7$' "$CALLS" && grep -q '^weibull --seed 7 ' "$CALLS"
+  grep -q -- '--spin 5.342h --hydrostatic -n 200 --rotate 7$' "$CALLS"
+  grep -q '^weibull --seed 7 ' "$CALLS"
   called
-  bodies "$OUT/rubble-n200-s7.h5" && grep -q -- '-n 200 --rotate 7 --seed 7' "$CALLS"
+  bodies "$OUT/rubble-n200-s7.h5"
+  grep -q -- '-n 200 --rotate 7 --seed 7' "$CALLS"
   called
   bodies BODIES=mine RECIPE='mksphere -m 1e20kg -l ice' && grep -q '^mksphere -m 1e20kg -l ice -n 100 --rotate 1$' "$CALLS"
 }
 
 @test "a changed recipe makes its body again, and only that; asking spoils nothing" {
   mock
-  bodies && called
+  bodies
+  called
   bodies -n recipe.moon='mksphere -m 1e22kg -l basalt' >/dev/null
-  bodies && expect '' "$(called)"
-  bodies recipe.moon='mksphere -m 1e22kg -l basalt' && expect 'mksphere relax ' "$(called)"
+  bodies
+  expect '' "$(called)"
+  bodies recipe.moon='mksphere -m 1e22kg -l basalt'
+  expect 'mksphere relax ' "$(called)"
   bodies BODIES=moon RELAX='--fluid' && grep -q 'relax --set pressure_form=product --proof 2tff --fluid' "$CALLS"
 }
 
 @test "a body that fails is not there; what is not at rest fails; unknown names are one line" {
   mock
   FAILING=relax run bodies BODIES=moon
-  [ "$status" != 0 ] && [ ! -e "$OUT/moon-n100-s1.h5" ]
+  [ "$status" != 0 ]
+  [ ! -e "$OUT/moon-n100-s1.h5" ]
   REACHED='100000 0.001 0.02 0.5 106' run bodies BODIES=moon
-  [ "$status" != 0 ] && [[ $output == *"FAILED density"* ]]
-  rm "$OUT"/moon* && REACHED='100000 0.004 0.009 0.5 112' run bodies BODIES=moon
-  [ "$status" != 0 ] && [[ $output == *"FAILED speed radius"* ]]
+  [ "$status" != 0 ]
+  [[ $output == *"FAILED density"* ]]
+  rm "$OUT"/moon*
+  REACHED='100000 0.004 0.009 0.5 112' run bodies BODIES=moon
+  [ "$status" != 0 ]
+  [[ $output == *"FAILED speed radius"* ]]
   # 1 % at 100 000 particles is 2.2 % at 10 000; sums are judged inside
-  rm "$OUT"/moon* && REACHED='10000 0.001 0.02 0.5 106' bodies BODIES=moon
-  rm "$OUT"/moon* && REACHED='100000 0.001 0.3 0.005 106' bodies BODIES=moon FORM=sum
+  rm "$OUT"/moon*
+  REACHED='10000 0.001 0.02 0.5 106' bodies BODIES=moon
+  rm "$OUT"/moon*
+  REACHED='100000 0.001 0.3 0.005 106' bodies BODIES=moon FORM=sum
   run bodies BODIES=pluto
-  [ "$status" != 0 ] && [[ $output == *"no recipe 'pluto'; there are: ceres ceres_rock moon"* ]]
+  [ "$status" != 0 ]
+  [[ $output == *"no recipe 'pluto'; there are: ceres ceres_rock moon"* ]]
   run bodies "$OUT/moon-100-1.h5"
   [ "$status" != 0 ] && [[ $output == *"'moon-100-1' is not RECIPE-nN-sSEED[-FORM]"* ]]
 }
@@ -112,7 +128,8 @@ expect() { [ "$1" = "$2" ] || { echo "expected '$1', got '$2'"; return 1; }; }
 @test "real bodies, small: at rest, and a pile with flaws" {
   mock=$real
   bodies N=600 BODIES='moon rubble' flaws >"$BATS_TEST_TMPDIR/said" 2>&1 || { cat "$BATS_TEST_TMPDIR/said"; false; }
-  bodies N=600 BODIES='moon rubble' >said && [ "$(grep -c '	ok$' said)" = 2 ]
+  bodies N=600 BODIES='moon rubble' >said
+  [ "$(grep -c '	ok$' said)" = 2 ]
   rm said
   load h5
   cd "$OUT"

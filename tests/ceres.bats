@@ -2,6 +2,8 @@
 # pipelines/ceres.mk: what is made, what is made again and what is not, with mock programs that write down their calls; then a real
 # study, tiny. The claims are those at the head of the file and in docs/design.md, section 6.
 
+bats_require_minimum_version 1.5.0
+
 setup() {
   cd "$BATS_TEST_DIRNAME/.."
   real=$(dirname "$(command -v solver)")
@@ -56,33 +58,41 @@ analysis='clumps conserved fof histo render report track '
   mock
   study
   expect "$everything" "$(called)"
-  study -q && study
+  study -q
+  study
   expect '' "$(called)"
-  [ -s "$run_dir/report.txt" ] && ! grep FAILED "$run_dir/report.txt"
+  [ -s "$run_dir/report.txt" ]
+  run ! grep FAILED "$run_dir/report.txt"
 }
 
 @test "a changed variable remakes what depends on it" {
   mock
-  study && called
-  study LEAST=9 && expect 'fof histo render report track ' "$(called)"
-  study LEAST=9 EVERY=10 && expect "$(words $analysis solver)" "$(called)"
-  study LEAST=9 EVERY=10 DISTANCE=9000 && expect "$(words $analysis collide solver)" "$(called)"
+  study
+  called
+  study LEAST=9
+  expect 'fof histo render report track ' "$(called)"
+  study LEAST=9 EVERY=10
+  expect "$(words $analysis solver)" "$(called)"
+  study LEAST=9 EVERY=10 DISTANCE=9000
+  expect "$(words $analysis collide solver)" "$(called)"
   study LEAST=9 EVERY=10 DISTANCE=9000 ICE=ice_lange
   grep -c '^mksphere' "$CALLS" | grep -qx 1 # the body of basalt stays
 }
 
 @test "asking with other values makes nothing and spoils nothing" {
   mock
-  study && called
+  study
+  called
   study -n EVERY=10 >/dev/null
-  ! study -q EVERY=10
+  run ! study -q EVERY=10
   study -q && study && expect '' "$(called)"
 }
 
 @test "a sweep shares the bodies; each run has its place" {
   mock
   study ANGLE='15 48' SPEED='1.2 1.7' -j2
-  [ "$(grep -c '^mksphere' "$CALLS")" = 2 ] && [ "$(grep -c '^solver' "$CALLS")" = 4 ]
+  [ "$(grep -c '^mksphere' "$CALLS")" = 2 ]
+  [ "$(grep -c '^solver' "$CALLS")" = 4 ]
   grep -q -- '--angle 15deg --speed 1.2vesc .*a15-v1.2/start.h5' "$CALLS"
   [ -f "$OUT/N100-s1/a15-v1.2/report.txt" ]
   rm "$CALLS"
@@ -92,10 +102,13 @@ analysis='clumps conserved fof histo render report track '
 @test "a step that fails leaves no result and stops the study" {
   mock
   FAILING=relax run study
-  [ "$status" != 0 ] && [ ! -e "$OUT/bodies/ceres-n61-s11-squares.h5" ]
+  [ "$status" != 0 ]
+  [ ! -e "$OUT/bodies/ceres-n61-s11-squares.h5" ]
   called
   FAILING=fof run study
-  [ "$status" != 0 ] && [ ! -e "$run_dir/fragments.tsv" ] && [ -e "$run_dir/run/end" ]
+  [ "$status" != 0 ]
+  [ ! -e "$run_dir/fragments.tsv" ]
+  [ -e "$run_dir/run/end" ]
   called
   study && expect "$analysis" "$(called)"
 }
@@ -103,13 +116,18 @@ analysis='clumps conserved fof histo render report track '
 @test "a stopped run goes on; one of another start begins anew" {
   mock
   FAILING=solver CODE=3 run study
-  [ "$status" != 0 ] && [ ! -e "$run_dir/run/end" ]
+  [ "$status" != 0 ]
+  [ ! -e "$run_dir/run/end" ]
   echo kept >"$run_dir/run/checkpoint.h5"
   called
-  study && [ -e "$run_dir/run/checkpoint.h5" ]
-  grep -q '^solver --restart' "$CALLS" && expect "$(words $analysis solver)" "$(called)"
-  study END=3000 && [ -e "$run_dir/run/checkpoint.h5" ]              # a later end continues
-  study END=100 && [ ! -e "$run_dir/run/checkpoint.h5" ]             # an earlier one cannot
+  study
+  [ -e "$run_dir/run/checkpoint.h5" ]
+  grep -q '^solver --restart' "$CALLS"
+  expect "$(words $analysis solver)" "$(called)"
+  study END=3000 # a later end continues
+  [ -e "$run_dir/run/checkpoint.h5" ]
+  study END=100 # an earlier one cannot
+  [ ! -e "$run_dir/run/checkpoint.h5" ]
   echo kept >"$run_dir/run/checkpoint.h5"
   study END=100 DISTANCE=9000 && [ ! -e "$run_dir/run/checkpoint.h5" ]
 }
@@ -117,9 +135,12 @@ analysis='clumps conserved fof histo render report track '
 @test "post redoes the analysis on the dumps that are there" {
   mock
   run study post
-  [ "$status" != 0 ] && [[ $output == *"no dumps in "*"/run"* ]]
-  study && called
-  study post && expect "$analysis" "$(called)"
+  [ "$status" != 0 ]
+  [[ $output == *"no dumps in "*"/run"* ]]
+  study
+  called
+  study post
+  expect "$analysis" "$(called)"
   rm "$run_dir/run/end" # a run that is not over
   study post && expect "$analysis" "$(called)"
 }
@@ -127,7 +148,8 @@ analysis='clumps conserved fof histo render report track '
 @test "a check that fails is the study's failure; the report stays" {
   mock
   SPIN=3 run study check
-  [ "$status" != 0 ] && [[ $output == *"FAILED  angular momentum"* ]]
+  [ "$status" != 0 ]
+  [[ $output == *"FAILED  angular momentum"* ]]
   [ -s "$run_dir/report.txt" ] && [ ! -e "$run_dir/checked" ]
 }
 
@@ -136,7 +158,8 @@ analysis='clumps conserved fof histo render report track '
   first() { PATH=$mock:$PATH make -n -f pipelines/ceres.mk BIN="$mock" OUT="$OUT" | grep -o -m1 "N[0-9]*-s1"; }
   [ "$(first)" = N3000-s1 ]
   printf '#!/bin/bash\necho "--device auto|cpu"\n' >"$mock/solver"
-  printf '#!/bin/bash\necho "GPU 0: a card"\n' >"$mock/nvidia-smi" && chmod +x "$mock/nvidia-smi"
+  printf '#!/bin/bash\necho "GPU 0: a card"\n' >"$mock/nvidia-smi"
+  chmod +x "$mock/nvidia-smi"
   [ "$(first)" = N3000-s1 ] # the solver knows only the CPU
   printf '#!/bin/bash\necho "--device auto|cpu|cuda[:K]"\n' >"$mock/solver"
   [ "$(first)" = N200000-s1 ]
@@ -148,15 +171,18 @@ analysis='clumps conserved fof histo render report track '
   mkdir -p "$prefix/share/breccia"
   cp -r pipelines "$prefix/share/breccia"
   mv "$mock" "$prefix/bin"
-  cd "$BATS_TEST_TMPDIR" && env -u BIN make -s -f "$prefix/share/breccia/pipelines/ceres.mk" N=100
+  cd "$BATS_TEST_TMPDIR"
+  env -u BIN make -s -f "$prefix/share/breccia/pipelines/ceres.mk" N=100
   [ -s out/ceres/N100-s1/a48-v1.7/report.txt ]
 }
 
 @test "a real study, tiny, comes to its report and pictures" {
   mock=$real
   study N=100 END=330
-  grep -q '^ok .*at rest' "$run_dir/report.txt" && grep -q '^ok .*total energy' "$run_dir/report.txt"
-  grep -q '^n/a .*escape each other (the run ends' "$run_dir/report.txt" && ! grep FAILED "$run_dir/report.txt"
+  grep -q '^ok .*at rest' "$run_dir/report.txt"
+  grep -q '^ok .*total energy' "$run_dir/report.txt"
+  grep -q '^n/a .*escape each other (the run ends' "$run_dir/report.txt"
+  run ! grep FAILED "$run_dir/report.txt"
   for picture in cut damage end-1; do [ "$(head -c 4 "$run_dir/$picture.png" | tail -c 3)" = PNG ]; done
   [ "$(grep -o '<img' "$run_dir/report.html" | wc -l)" -ge 4 ] && grep -q 'Beside the numbers of the paper' "$run_dir/report.html"
 }
@@ -170,7 +196,8 @@ analysis='clumps conserved fof histo render report track '
   mv "$run_dir/run/"{snap_*.h5,run.log,conserved.tsv} "$here/run"
   mv "$OUT" "$OUT.gone"
   for p in fof clumps render conserved histo track info disk; do ln -s "$real/$p" "$programs/$p"; done
-  for p in solver relax mksphere weibull collide; do printf '#!/bin/sh\necho "$0" >>"%s"\nexit 1\n' "$CALLS" >"$programs/$p" && chmod +x "$programs/$p"; done
+  for p in solver relax mksphere weibull collide; do printf '#!/bin/sh\necho "$0" >>"%s"\nexit 1\n' "$CALLS" >"$programs/$p"; done
+  chmod +x "$programs"/{solver,relax,mksphere,weibull,collide}
   env -u BRECCIA_MATERIALS make -s -f pipelines/ceres.mk BIN="$programs" N=100 OUT="$BATS_TEST_TMPDIR/elsewhere" post
   expect '' "$(called)"
   # the same report, but for where it lies and digits of the orbit

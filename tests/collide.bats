@@ -155,7 +155,7 @@ same_orbit() {
     for angle in 0 1deg 45deg 89.9deg; do
       axes=("" "--contact -z" "--contact 1,2,3" "--contact x --pole=-y")
       start=-d\ 4
-      [ $speed = 0.75vesc ] && start=-d\ 1.2
+      if [ $speed = 0.75vesc ]; then start=-d\ 1.2; fi
       collide -V -n -a $angle -s $speed $start ${axes[$((k++ % 4))]} t.h5 i.h5 >out 2>log || { cat log; return 1; }
       [[ $(cat log) == "collide: integrated to contact: time off by "* ]]
       true_that 'abs(t) < 1e-6 && near(v, w, 1e-9)' t="$(awk '/^VerifiedTime/ {print $2}' out)" \
@@ -226,7 +226,8 @@ sums() {
   true_that 'near(r, v, 1e-9)' r="$(number second.h5 /Collision/RadiusImpactor)" v="$(awk -F'\t' 'NR == 3 {for (k = 1; k <= NF; k++) if ($k ~ /^radius/) c = k} $1 == 2 {print $c}' fragments)"
   [ "$(field second.h5 FlawThresholds | tail -20)" = "$(field s.h5 FlawThresholds | tail -20)" ]
   [ "$(field second.h5 ParticleIDs | sort -u | wc -l)" = "$(field second.h5 ParticleIDs | wc -l)" ]
-  [ -n "$(number s.h5 /Collision/Apoapsis)" ] && [ -z "$(number second.h5 /Collision/Apoapsis 2>log)" ]
+  [ -n "$(number s.h5 /Collision/Apoapsis)" ]
+  [ -z "$(number second.h5 /Collision/Apoapsis 2>log)" ]
   collide -a 45deg -s 1.5vesc -d 300km --radius-target volume s.h5 i.h5 >third.h5 2>log
   [ "$(field third.h5 BodyID | uniq | tr '\n' ' ')" = "0 1 2 " ]
   [ "$(number third.h5 /Collision/FirstBodyImpactor)" = 2 ]

@@ -59,9 +59,11 @@ value() { awk -F'\t' -v q="$1" -v c="$2" '$1 == q { print $c }' drifts; }
   bad 1 "'head.tsv' has no rows" conserved head.tsv
   sed 1d t.tsv >bare.tsv
   bad 1 "bare.tsv:1: no line '# name...' before the rows" conserved bare.tsv
-  { cat t.tsv && echo 1; } >cut.tsv
+  cat t.tsv >cut.tsv
+  echo 1 >>cut.tsv
   bad 1 "cut.tsv:3: 1 columns, not 17" conserved cut.tsv
-  mkdir path && ln -s "$(command -v conserved)" "$(command -v bash)" path
+  mkdir path
+  ln -s "$(command -v conserved)" "$(command -v bash)" path
   PATH=path bad 1 "cannot make a picture: gnuplot is not there (make deps)" conserved -o p.png t.tsv
   [ -z "$(ls -A | grep png)" ]
 }

@@ -37,7 +37,8 @@ dataset() {
   most=$(field run/snap_0002.h5 FlawCount | sort -n | tail -1)
   [ "$(dataset m.0002.h5 /maximum_number_of_flaws)" = "$most" ]
   [ "$(dataset m.0002.h5 /activation_thresholds | grep -v -- '^-1$')" = "$(field run/snap_0002.h5 FlawThresholds)" ]
-  grep -q 'material_type 2 is jsc1a' said && grep -q 'not carried over: History, Parameters, Collision, Body' said
+  grep -q 'material_type 2 is jsc1a' said
+  grep -q 'not carried over: History, Parameters, Collision, Body' said
   convert -o back.h5 m.0002.h5 2>said
   same run/snap_0002.h5 back.h5
   h5diff run/snap_0002.h5 back.h5 /Materials /Materials
@@ -98,18 +99,22 @@ dataset() {
 @test "XDMF: XML that points to what is there, by names beside it" {
   convert -o run/all.xdmf run/snap_*.h5
   [ "$(grep -c '<Time Value' run/all.xdmf)" = 3 ]
-  mv run moved && cd moved
+  mv run moved
+  cd moved
   grep -o 'Dimensions="[^"]*">[^<]*' all.xdmf | sed 's/.*="\(.*\)">\(.*\)/\2 \1/' >items
   [ -s items ]
   while IFS=': ' read -r file dataset rows columns; do
     h5ls "$file$dataset" | grep -q "Dataset {$rows${columns:+, $columns}}$"
   done <items
-  grep -q '^snap_0001.h5:/PartType0/DeviatoricStress ' items && grep -q 'AttributeType="Tensor6"' all.xdmf
+  grep -q '^snap_0001.h5:/PartType0/DeviatoricStress ' items
+  grep -q 'AttributeType="Tensor6"' all.xdmf
   cd .. && convert -o elsewhere.xdmf moved/snap_0000.h5 && grep -q '>moved/snap_0000.h5:/PartType0/Coordinates<' elsewhere.xdmf
 }
 
 @test "what h5py and numpy make of it" {
-  convert -q -t miluph -o m.h5 run/snap_0002.h5 && convert -o a.csv run/snap_0002.h5 && convert -o a.h5part run/snap_0002.h5
+  convert -q -t miluph -o m.h5 run/snap_0002.h5
+  convert -o a.csv run/snap_0002.h5
+  convert -o a.h5part run/snap_0002.h5
   reads 'h5py numpy' '
 import h5py, numpy as np
 p = h5py.File("run/snap_0002.h5")["PartType0"]
@@ -130,7 +135,9 @@ assert np.array_equal(csv["Density_[kg/m^3]"], p["Density"])
 }
 
 @test "what VTK makes of it" {
-  convert -o a.vtu run/snap_0002.h5 && convert -o a.h5part run/snap_0002.h5 && convert -o run/a.xdmf run/snap_*.h5
+  convert -o a.vtu run/snap_0002.h5
+  convert -o a.h5part run/snap_0002.h5
+  convert -o run/a.xdmf run/snap_*.h5
   reads 'vtk h5py numpy' '
 import vtk, h5py, numpy as np
 p = h5py.File("run/snap_0002.h5")
@@ -185,7 +192,8 @@ if hasattr(vtk, "vtkH5PartReader"):
   : >text.0000
   bad 1 "'text.0000': no rows" convert -f miluph-input -o a.h5 text.0000
   bad 1 "SIRONO_POROSITY: its nine columns" convert -t miluph-input --switches SIRONO_POROSITY -o a.txt s.h5
-  echo 1 >one.txt && h5import one.txt -dims 1 -path x -type TEXTFP -o other.h5
+  echo 1 >one.txt
+  h5import one.txt -dims 1 -path x -type TEXTFP -o other.h5
   bad 1 "no format that is known here" convert -o a.h5 other.h5
   convert -q -t miluph -o m.h5 s.h5
   bad 1 "--material: 'm.h5' has no material 3" convert -q -m 3:ice -o a.h5 m.h5

@@ -27,30 +27,36 @@ asked() { [[ "$(tail -1 "$CALLS")" == *" install -y --no-install-recommends $1" 
 @test "only what is missing, program or header, is installed, after an update" {
   rm "$machine/bats" "$machine/groff"
   LACKS='hdf5.h gsl/gsl_version.h' deps
-  [ "$status" = 0 ] && [ "$output" = 'deps: installing libhdf5-dev libgsl-dev bats groff-base' ]
-  [ "$(wc -l <"$CALLS")" = 2 ] && head -1 "$CALLS" | grep -q ' update$'
+  [ "$status" = 0 ]
+  [ "$output" = 'deps: installing libhdf5-dev libgsl-dev bats groff-base' ]
+  [ "$(wc -l <"$CALLS")" = 2 ]
+  head -1 "$CALLS" | grep -q ' update$'
   asked 'libhdf5-dev libgsl-dev bats groff-base'
 }
 
 @test "not root: through sudo" {
   USERID=1000 LACKS=png.h deps
-  [ "$status" = 0 ] && [ "$(grep -c '^sudo$' "$CALLS")" = 2 ]
+  [ "$status" = 0 ]
+  [ "$(grep -c '^sudo$' "$CALLS")" = 2 ]
   asked libpng-dev
 }
 
 @test "not root and no sudo, or no apt-get: what is missing, nothing is called" {
   rm "$machine/sudo"
   USERID=1000 LACKS='png.h zlib.h' deps
-  [ "$status" = 1 ] && [ "$output" = 'deps: not root and no sudo; as root: apt-get install libpng-dev zlib1g-dev' ]
+  [ "$status" = 1 ]
+  [ "$output" = 'deps: not root and no sudo; as root: apt-get install libpng-dev zlib1g-dev' ]
   rm "$machine/apt-get"
   LACKS='png.h zlib.h' deps
-  [ "$status" = 1 ] && [ "$output" = 'deps: no apt-get here; missing (Debian names): libpng-dev zlib1g-dev' ]
+  [ "$status" = 1 ]
+  [ "$output" = 'deps: no apt-get here; missing (Debian names): libpng-dev zlib1g-dev' ]
   [ ! -e "$CALLS" ]
 }
 
 @test "a package that apt-get does not know is named, alone, in the last line" {
   UNKNOWN='libcmocka-dev' LACKS='hdf5.h cmocka.h' deps
-  [ "$status" = 1 ] && [[ ${lines[-1]} == 'deps: apt-get knows no libcmocka-dev: '* ]]
+  [ "$status" = 1 ]
+  [[ ${lines[-1]} == 'deps: apt-get knows no libcmocka-dev: '* ]]
   has apt-get 'exit 100'
   LACKS='hdf5.h cmocka.h' deps
   [ "$status" = 1 ] && [ "${lines[-1]}" = 'deps: could not install libhdf5-dev libcmocka-dev' ]

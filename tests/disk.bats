@@ -55,7 +55,8 @@ cell() {
   disk -m canup --of body:0 fall.h5 >table # h^2/mu = 1.5e6 m
   [ "$(cell body n)" = $((moon + planet)) ]
   disk --of body:0 fall.h5 >table
-  [ "$(cell re-impact n)" -ge "$moon" ] && [ "$(cell disk n)" = 0 ]
+  [ "$(cell re-impact n)" -ge "$moon" ]
+  [ "$(cell disk n)" = 0 ]
   disk -m canup --of body:0 out.h5 >table
   [ "$(cell escape n)" = "$moon" ] && [ "$(cell body n)" = "$planet" ]
 }

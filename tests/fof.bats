@@ -156,7 +156,8 @@ fails() { # fails STATUS TEXT COMMAND...: one line that contains the text
 }
 
 @test "bad input is one line" {
-  echo text >text.h5 && head -c 20000 two.h5 >short.h5
+  echo text >text.h5
+  head -c 20000 two.h5 >short.h5
   fails 1 "lacks field 'Damage' (made by weibull)" fof --max-damage 1 two.h5
   fails 1 "no material 'icy' in this file (did you mean 'ice'?)" fof --ignore icy two.h5
   fails 1 "'none.h5'" fof none.h5

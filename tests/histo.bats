@@ -62,7 +62,8 @@ sample() {
   for options in '' '--bins 10' '--bins 10 --linear -c v' '--fit 1:500 --title x'; do
     histo $options -o p.png t.tsv >/dev/null 2>messages
     [ ! -s messages ]
-    [ "$(od -A n -t x1 -N 4 p.png | tr -d ' ')" = 89504e47 ] && rm p.png
+    [ "$(od -A n -t x1 -N 4 p.png | tr -d ' ')" = 89504e47 ]
+    rm p.png
   done
 }
 

@@ -66,9 +66,12 @@ cell() {
 
 @test "one screen: all of it, in lines that fit" {
   info $snap >screen
-  [ "$(wc -l <screen)" -le 48 ] && [ "$(awk 'length > 100' screen)" = "" ]
+  [ "$(wc -l <screen)" -le 48 ]
+  [ "$(awk 'length > 100' screen)" = "" ]
   head -1 screen | grep -q "^$snap: .* particles, 3D, t = "
-  grep -q '^settings   gravity.theta=0.5$' screen && grep -q '^basalt\|^1 basalt' screen && grep -q '^collision ' screen
+  grep -q '^settings   gravity.theta=0.5$' screen
+  grep -q '^basalt\|^1 basalt' screen
+  grep -q '^collision ' screen
   for name in $(h5ls $snap/PartType0 | awk '{print $1}'); do grep -q "^$name " screen; done
   info run/checkpoint.h5 | head -1 | grep -q 'a checkpoint$'
   info <$snap | head -1 | grep -q '^-: '

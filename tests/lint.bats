@@ -112,9 +112,34 @@ lines_of() { for ((k = 0; k < $1; k++)); do echo "$2"; done; }
   found 'solver/cpu/b.c:1: exports other_b, not b_...'
 }
 
+@test "tests of bats that cannot fail" {
+  test_of() { printf '# SPDX-License-Identifier: GPL-3.0-or-later\n@test "x" {\n%s\n  true\n}\n' "$1" >tests/x.bats; }
+  for bad in '  [ 1 = 2 ] && true' '  for k in 1; do false && true; done' '  true && ! true' '  { false && true; } >x' $'  false &&\n    true'; do
+    test_of "$bad"
+    run tests/lint build
+    [ "$status" = 1 ]
+    [[ ${lines[0]} =~ ^'tests/x.bats:3: `'('&&'|'!')'` hides a failure'$ ]]
+    [ "${#lines[@]}" = 2 ]
+  done
+  test_of '  ! true'
+  found 'tests/x.bats:3: `!` hides a failure'
+  for good in '  false && true || return 1' '  if false && true; then true; fi' '  x="$(false && echo 1)" # a && b' "  awk 'a && b" '  [[ 1 = 1 && 2 = 2 ]]' \
+    '  f() { false && true; }' $'  cat <<T\na && b\nT'; do
+    test_of "$good"
+    run tests/lint build
+    [ "$status" = 0 ]
+  done
+  printf '# SPDX-License-Identifier: GPL-3.0-or-later\n@test "x" {\n  true && ! false\n}\n' >tests/x.bats
+  run tests/lint build
+  [ "$status" = 0 ]
+}
+
 @test "docs/coverage.md: what does not exist is found" {
-  mkdir repo && cd repo
-  cp -r "$BATS_TEST_DIRNAME/../docs" . && mkdir tests tools && cp "$BATS_TEST_DIRNAME/coverage" tests
+  mkdir repo
+  cd repo
+  cp -r "$BATS_TEST_DIRNAME/../docs" .
+  mkdir tests tools
+  cp "$BATS_TEST_DIRNAME/coverage" tests
   (cd "$BATS_TEST_DIRNAME/.." && ls tests/*.c tests/*.cu tests/*.bats) | xargs touch
   for d in "$BATS_TEST_DIRNAME"/../tools/*/; do mkdir "tools/$(basename "$d")"; done
   for d in materials pipelines solver; do cp -r "$BATS_TEST_DIRNAME/../$d" .; done

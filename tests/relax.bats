@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # relax: the one-dimensional structure, what is laid on the particles, and the body left alone.
 
+bats_require_minimum_version 1.5.0
+
 load h5
 
 setup() {
@@ -94,7 +96,7 @@ cell() { awk -F'\t' -v run="$1" -v name="$2" 'NR == 1 { for (k = 1; k <= NF; k++
   grep -q '^relax: damped run' said
   relax -o again.h5 r.h5 2>said
   grep -q '^relax: at rest already' said
-  ! grep -q 'damped run\|proof' said
+  run ! grep -q 'damped run\|proof' said
   [ "$(field r.h5 Coordinates | md5sum)" = "$(field again.h5 Coordinates | md5sum)" ] || {
     paste <(field r.h5 Coordinates) <(field again.h5 Coordinates) | awk '{ d = $1 - $2; if (d > 1 || d < -1) exit 1 }'; }
   relax --again --max-time 100s --proof 0 -o x.h5 r.h5 2>said

@@ -76,19 +76,24 @@ like_whole() {
   kill -TERM $pid
   rc=0
   wait $pid || rc=$?
-  [ $rc = 3 ] && [ -s run/checkpoint.h5 ] && [ ! -e run/snap_0010.h5 ]
+  [ $rc = 3 ]
+  [ -s run/checkpoint.h5 ]
+  [ ! -e run/snap_0010.h5 ]
   grep -q 'stopped at step .*: signal' run/run.log
   [ -s run/checkpoint_prev.h5 ]
-  head -c 20000 run/checkpoint.h5 >cut && mv cut run/checkpoint.h5
+  head -c 20000 run/checkpoint.h5 >cut
+  mv cut run/checkpoint.h5
   go --restart 2>messages
   [ "$(cat messages)" = "solver: warning: cannot read 'run/checkpoint.h5': truncated file" ]
   like_whole
 }
 
 @test "no checkpoint that can be read" {
-  mkdir run && echo nonsense >run/checkpoint.h5
+  mkdir run
+  echo nonsense >run/checkpoint.h5
   run go --restart
-  [ "$status" = 1 ] && [ "${lines[1]}" = "solver: cannot read 'run/checkpoint.h5': not an HDF5 file" ]
+  [ "$status" = 1 ]
+  [ "${lines[1]}" = "solver: cannot read 'run/checkpoint.h5': not an HDF5 file" ]
   [ "$(ls -A run)" = checkpoint.h5 ]
 }
 
@@ -104,7 +109,9 @@ same_files() {
 
 # Mixed precision is held to 1e-5 of the acceleration: of 4 m/s^2 at most in 100 s to 0.2 m.
 @test "--precision double: the same bytes twice; mixed comes to the same places" {
-  short a --precision double && short b --precision double && short c --precision mixed
+  short a --precision double
+  short b --precision double
+  short c --precision mixed
   same_files a b
   paste <(field a/run/snap_0001.h5 Coordinates) <(field c/run/snap_0001.h5 Coordinates) |
     awk '{ d = $1 - $2; if (d < 0) d = -d; if (d > most) most = d } END { print NR, most " m"; exit !(NR > 1000 && most < 0.2) }'
@@ -239,9 +246,12 @@ CFG
     solver --restart --max-wall 0 "$@" || status=$?
     [ $status = 3 ] || break
   done
-  [ $status = 0 ] && [ $k -gt 3 ]
+  [ $status = 0 ]
+  [ $k -gt 3 ]
   mv run part
-  ls -A whole >a && ls -A part | grep -v checkpoint_prev >b && diff a b
+  ls -A whole >a
+  ls -A part | grep -v checkpoint_prev >b
+  diff a b
   for f in whole/*; do
     case $f in
       *.tsv) cmp "$f" "part/${f##*/}" ;;
@@ -249,7 +259,8 @@ CFG
         for g in /PartType0 /PointMasses; do [[ $f$g = */snap* || $g = /Part* ]] || continue; h5diff "$f" "part/${f##*/}" $g $g; done ;;
     esac
   done
-  [ "$(rows whole/escaped.h5)" -gt 0 ] && [ "$(rows whole/accreted.h5)" -gt 0 ]
+  [ "$(rows whole/escaped.h5)" -gt 0 ]
+  [ "$(rows whole/accreted.h5)" -gt 0 ]
   [ $(($(rows whole/snap_0004.h5) + $(rows whole/escaped.h5) + $(rows whole/accreted.h5))) = "$(rows ../s.h5)" ]
   awk -F'\t' 'NR == 2 {m = $18} NR > 1 && ($18 + $23 - m) ^ 2 > (1e-12 * m) ^ 2 {exit 1}' whole/conserved.tsv
   run solver -o other --end +200s --set escape.from=origin ../s.h5

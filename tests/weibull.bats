@@ -55,7 +55,8 @@ column() {
 0 basalt 5 4e+35 9
 1 ice 9 1.4e+38 10
 1 basalt 9 4e+35 9" ]
-  weibull --seed 5 s.h5 -o a.h5 && weibull --seed 5 --seed 1:9 s.h5 -o b1.h5
+  weibull --seed 5 s.h5 -o a.h5
+  weibull --seed 5 --seed 1:9 s.h5 -o b1.h5
   n=$(field l.h5 ParticleIDs | wc -l)
   [ "$(field a.h5 FlawCount | head -n "$n")" = "$(field b1.h5 FlawCount | head -n "$n")" ]
   [ "$(field a.h5 FlawCount | tail -n "$n")" != "$(field b1.h5 FlawCount | tail -n "$n")" ]
