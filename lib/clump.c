@@ -196,7 +196,7 @@ static long count_bound(const Parts *p, const long *list, long n, const double *
                         ClumpLevel level, double *mass, Err *err)
 {
   const size_t room = (size_t)n + 1;
-  double *m = malloc(4 * room * sizeof *m), *v = m + n, centre[3];
+  double *m = calloc(4 * room, sizeof *m), *v = m + n, centre[3];
   long *order = malloc(room * sizeof *order), bound = 0;
   if (!m || !order) return free(m), free(order), no_memory(n, err);
   for (long k = 0; k < n; k++)
