@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # mksphere: lattice bodies as in docs/theory.md 6.1.
 
+bats_require_minimum_version 1.5.0
+
 load h5
 
 setup() { cd "$BATS_TEST_TMPDIR"; }
@@ -64,6 +66,18 @@ setup() { cd "$BATS_TEST_TMPDIR"; }
     abs($4 + w * $2) > 1e-12 || abs($5 - w * $1) > 1e-12 || $6 != 0 {exit 1}'
 }
 
+# sqrt(3 pi/(G rho)): 7231.9 s for basalt
+@test "spin: what gravity does not hold together is warned of" {
+  for spin in 2h -2h; do
+    mksphere -n 300 --radius 10km --layer basalt --spin $spin -o b.h5 2>said
+    grep -q '^mksphere: warning: gravity alone .* less than 7231\.[0-9]* s (period 7200 s)$' said
+  done
+  for body in '--layer basalt --spin 2.01h' '--layer basalt' '--layer basalt -d 2 --spin 2h'; do
+    mksphere -n 300 --radius 10km $body -o b.h5 2>said
+    run ! grep warning said
+  done
+}
+
 @test "disc and segment: masses per length and per area, z and y held" {
   mksphere -d 2 -n 1000 --radius 100m --layer basalt:0.5 --layer ice:0.5 --rotate 3 --spin 100s >disc.h5
   paste <(field disc.h5 Masses) <(field disc.h5 Density) <(field disc.h5 Coordinates 3) | awk '
@@ -119,7 +133,8 @@ setup() { cd "$BATS_TEST_TMPDIR"; }
 
 @test "a profile in a file: text and HDF5 give the particles that the recipe gives" {
   body="-n 1000 --mass 1e23kg --layer iron:0.2 --layer ice:0.8"
-  mksphere $body -o raw.h5 && relax --profile p.h5 --profile-only raw.h5 >p.tsv
+  mksphere $body -o raw.h5
+  relax --profile p.h5 --profile-only raw.h5 >p.tsv
   mksphere $body --hydrostatic -o a.h5
   for p in p.tsv p.h5; do
     mksphere -n 1000 --profile $p -o b.h5

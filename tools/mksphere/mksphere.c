@@ -180,11 +180,22 @@ static void read_profile(Body *b)
   b->s = &p->s;
 }
 
+/* An uncompressed body keeps the shape it is given: cohesion may hold what gravity does not. */
+static void check_spin(const Body *b)
+{
+  const double shed = 2 * PI * sqrt(pow(b->r.radius, 3) / (UNIT_G * b->r.mass));
+  if (o.dimension == 3 && b->r.body.weightless && fabs(o.spin) < shed)
+    err_warn("gravity alone does not hold a body of this density that spins in less than %g s "
+             "(period %g s)",
+             shed, fabs(o.spin));
+}
+
 /* The figure of a body that spins. */
 static void flatten(Body *b)
 {
   Structure *s = &b->profile.s;
   Err err;
+  if (!isnan(o.spin)) check_spin(b);
   if (isnan(o.spin) || !b->s || b->r.body.weightless || s->node[s->n - 1].f != 0) return;
   if (figure_spin(s, &b->r.body, 2 * PI / o.spin, &err)) err_die("%s", err.text);
   b->r.radius = s->node[s->n - 1].r;
