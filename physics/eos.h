@@ -115,6 +115,7 @@ HD double eos_bulk(const Eos *e)
 /* eos_vapour: whether there is vapour in matter at rho, u, as far as the law knows phases. */
 HD int eos_vapour(const Eos *e, double rho, double u)
 {
+  if (e->form == EOS_TABLE) return eos_table_vapour(&e->table, rho, u);
   return e->form == EOS_TILLOTSON && u > e->tillotson.Eiv && rho < e->tillotson.rho0;
 }
 

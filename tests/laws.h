@@ -31,7 +31,8 @@ static const char *const materials[] = {
              "limit = 0.3; friction_damaged = 0.5; melt_energy = 2.; };",
     LIQUID("m") "strength = { shear_modulus = 1.; form = \"johnson_cook\"; A = 0.1; B = 0.1;"
                 "n = 0.3; C = 0.1; rate0 = 0.1; T0 = 0.; Tmelt = 2.; };",
-    "name = \"n\"; eos = { form = \"table\"; file = \"heat.h5\"; };",
+    "name = \"n\"; eos = { form = \"table\"; file = \"heat.h5\"; rho0 = 1.; };"
+    "strength = { shear_modulus = 1.; form = \"none\"; };",
     "name = \"o\"; eos = { form = \"table\"; file = \"energy.h5\"; };",
     LIQUID("p") "strength = { shear_modulus = 1.; form = \"lundborg\"; cohesion = 0.1; friction = "
                 "1.; };"
@@ -53,7 +54,17 @@ static const char *const materials[] = {
         "w") "strength = { shear_modulus = 1.; form = \"regolith\"; cohesion = 0.1; friction = 0.5;"
              "dilatancy = 0.3; };",
     LIQUID("x") "strength = { shear_modulus = 1.; form = \"viscous_regolith\"; cohesion = 0.1;"
-                "friction = 0.5; viscosity = 0.1; };"};
+                "friction = 0.5; viscosity = 0.1; };",
+    "name = \"y\"; eos = { form = \"tillotson\"; rho0 = 1.; A = 1.; B = 1.; E0 = 1.; Eiv = 0.3;"
+    "Ecv = 1.; a = 0.5; b = 1.5; alpha = 5.; beta = 5.; };"
+    "strength = { shear_modulus = 1.; form = \"collins\"; cohesion = 0.1; friction = 1.;"
+    "limit = 0.3; cohesion_damaged = 0.05; friction_damaged = 0.5; weak_limit = 0.8; weak_gamma = "
+    "0.5; };"
+    "damage = { form = \"grady_kipp\"; k = 1e10; m = 5.; shear = 0.; };"
+    "porosity = { form = \"p_alpha\"; alpha_0 = 1.5; p_e = 0.01; p_s = 1.; };",
+    "name = \"z\"; eos = { form = \"table\"; file = \"energy.h5\"; rho0 = 1.; };"
+    "strength = { shear_modulus = 1.; form = \"von_mises\"; Y = 0.1; };"
+    "porosity = { form = \"epsilon_alpha\"; alpha_0 = 1.3; kappa = 0.9; epsilon_x = -0.2; };"};
 enum { MATERIALS = sizeof materials / sizeof *materials };
 
 #endif

@@ -9,6 +9,7 @@
 #include <string.h>
 #include <cmocka.h>
 #include "physics/material.h"
+#include "tabulated.h"
 
 static const Eos ROCK = {.form = EOS_MURNAGHAN, .murnaghan = {.rho0 = 2700, .K = 30e9, .n = 4}};
 /* clang-format off */
@@ -108,28 +109,36 @@ static void strains(void **state)
  * was. */
 static void loading(void **state)
 {
+  const double range[2] = {1500, 8000}, heat[2] = {0, 1e6};
+  Table t = tabulated_law(&(Material){.eos = BASALT, .heat = 1000}, range, 40, heat, 20, 0);
+  const Eos table = tabulated_eos(&t), *const of[] = {&ROCK, &BASALT, &table};
   (void)state;
-  for (int k = 0; k < N; k++)
-    for (int eos = 0; eos < 2; eos++)
+  for (int k = 0; k < 2 * N; k++)
+    for (int eos = 0; eos < 3; eos++)
       for (double step = 1.001; step < 1.3; step = 1 + 10 * (step - 1)) {
-        const Porosity *q = &LAWS[k];
-        const Eos *e = eos ? &BASALT : &ROCK;
-        double rho = 2700 / q->alpha0, alpha = q->alpha0, u = 1e3;
+        Porosity law = LAWS[k / 2], *q = &law;
+        const Eos *e = of[eos];
+        double rho = 2700 / q->alpha0, alpha = q->alpha0, u = 1e3, bulk = eos_bulk(e), h, full;
+        law.c = k % 2 ? 1500 : 0;
         PorousPoint top = porosity_eval(q, e, rho, 0, 0, alpha);
         near(top.alpha, alpha, 1e-15);
-        assert_true(fabs(top.e.p) < 1e-3);
+        assert_true(fabs(top.e.p) < 1e-12 * 26.7e9);
         while (alpha > 1.02 && rho < 4000) {
           top = porosity_eval(q, e, rho *= step, u, 0, alpha);
           assert_true(top.alpha <= alpha && top.alpha >= 1);
           alpha = top.alpha;
-          near(top.e.p, eos_eval(e, alpha * rho, u, 0).p / alpha, 1e-8);
-          if (alpha < q->alpha0 && k < N - 1) near(alpha, porosity_curve(q, top.e.p), 1e-8);
+          /* loaded; never denser than the solid */
+          h = porosity_speed(q, e, alpha),
+          full = fmax(1, alpha + top.e.p * alpha * alpha / bulk * (1 - 1 / (h * h)));
+          near(top.e.p, eos_eval(e, full * rho, u, 0).p / full, 1e-8);
+          if (alpha < q->alpha0 && k / 2 < N - 1) near(alpha, porosity_curve(q, top.e.p), 1e-8);
         }
         assert_true(alpha < q->alpha0);
         for (double less = rho / step; less > rho / 1.2; less /= step)
           assert_true(porosity_eval(q, e, less, u, 0, alpha).alpha == alpha);
         near(porosity_eval(q, e, rho, u, 0, alpha).alpha, alpha, 1e-12);
       }
+  table_law_free((struct eos_table *)&table.table), table_free(&t);
 }
 
 /* Without pores it is the solid, to the bit, whatever the state; so it is when they are gone. */
@@ -248,6 +257,11 @@ static void dust(void **state)
     alpha = porosity_eval(&q, &silica, rho, 0, 0, alpha).alpha;
   near(porosity_eval(&q, &silica, 400, 0, 0, alpha).e.p, -pow(10, 2.8 + 1.48 * .2), 1e-9);
   near(porosity_shear_strength(&q, &silica, 600), sqrt(c * pow(10, 2.8 + 1.48 * .3)), 1e-12);
+  /* looser than the loosest nothing is borne; the densest does not crush any more */
+  m = porosity_eval(&q, &silica, 200.1, 0, 0, 10);
+  assert_true(m.e.p == 0), near(m.alpha, 2000 / 200.1, 1e-12);
+  m = porosity_eval(&q, &silica, 1300, 0, 0, 1 / .6);
+  assert_true(m.alpha == 1 / .6), near(m.e.p, 4.5e3 * pow(3, 4) * (.65 / .6 - 1), 1e-12);
 }
 
 /* The integral of Jutzi et al. (2008), d D^(1/3) = -1/3 (1 - x + delta)^(-2/3)/((1 + delta)^(1/3) -
@@ -261,7 +275,8 @@ static void broken(void **state)
     if (fabs(x - .5) < d / 2 || fabs(x - .1) < d / 2)
       near(porosity_broken(&LAWS[0], 1 + .25 * (x - d / 2)), sum, 1e-4);
   }
-  assert_true(porosity_broken(&LAWS[0], 1.25) == 0);
+  assert_true(porosity_broken(&LAWS[0], 1.25) == 0 && porosity_broken(&LAWS[0], 1.5) == 0);
+  assert_true(porosity_broken(&(Porosity){.form = POROSITY_P_ALPHA, .alpha0 = 1}, 1) == 0);
   near(porosity_broken(&LAWS[0], 1), 1, 1e-14);
 }
 

@@ -261,7 +261,7 @@ static void outside(void **state)
   table_law_free(&e.table), table_free(&t);
 }
 
-/* The phase is that of the nearest node. */
+/* The phase is that of the nearest node; vapour is where it has a number of its own. */
 static void phase(void **state)
 {
   Table t = table_of(2, 1);
@@ -274,7 +274,14 @@ static void phase(void **state)
       for (int side = -1; side < 2; side++) {
         double rho = t.rho[i] + side * 0.4 * (t.rho[i] - t.rho[i - 1]);
         double T = t.y[j] - side * 0.4 * (t.y[j] - t.y[j - 1]);
-        assert_int_equal(eos_table_state(&e.table, rho, EOS_TABLE_T, T).phase, i * t.ny + j);
+        EosTableState at = eos_table_state(&e.table, rho, EOS_TABLE_T, T);
+        assert_int_equal(at.phase, i * t.ny + j);
+        e.table.vapour = at.phase;
+        assert_true(eos_vapour(&e, rho, at.u));
+        e.table.vapour = at.phase + 1;
+        assert_true(!eos_vapour(&e, rho, at.u));
+        e.table.vapour = 0;
+        assert_true(!eos_vapour(&e, rho, at.u));
       }
   table_law_free(&e.table), table_free(&t);
 }

@@ -284,6 +284,38 @@ static void tension(void **state)
   }
 }
 
+/* Without shear there is nothing to take back, but what is pulled beyond the envelope; a law that
+ * has its limit without pressure stays there. */
+static void unloaded(void **state)
+{
+  Yield y = law(YIELD_LUNDBORG);
+  (void)state;
+  y.lundborg.limit = y.lundborg.cohesion;
+  for (double p = 0; p < 1e10; p = 3 * p + 1e5) close_to(strength(&y, p, 0, 1, 1), 90e6);
+  for (int form = 0; form < YIELD_COUNT; form++)
+    for (double p = -1e9; p <= 1e9; p += 2.5e8) {
+      Sym none = {-p, 0, 0, -p, 0, -p};
+      y = law(form);
+      double f = returned(&y, none, 0.5);
+      assert_true(p < 0 ? f == 0 || f == 1 : f == 1);
+    }
+}
+
+/* Half the cohesion is half the strength without pressure, of each law (of Collins the broken rock),
+ * and half the tension. */
+static void weak_laws(void **state)
+{
+  (void)state;
+  for (int form = YIELD_NONE + 1; form < YIELD_COUNT; form++) {
+    Yield y = law(form);
+    double whole = strength(&y, 0, 1, 1, 1), half = strength(&y, 0, 1, 1, .5);
+    if (form == YIELD_VISCOUS_REGOLITH) continue; /* its stress is made */
+    close_to(half, whole * (form == YIELD_BENZ_ASPHAUG ? .25 : .5));
+    if (yield_knows_pressure(&y))
+      close_to(yield_tension(&y, 1, 1, .5), .5 * yield_tension(&y, 1, 1, 1));
+  }
+}
+
 static double flow(const Yield *y, double strain, double rate, double T)
 {
   Sym s = {0, 1e15, 0, 0, 0, 0};
@@ -305,6 +337,11 @@ static void johnson_cook(void **state)
   assert_true(fabs(flow(&copper, .3, 4000, 600) - 261.792e6) < 1e3);
   close_to(flow(&steel, .1, 1e-3, 298), flow(&steel, .1, 1, 298)); /* slower than rate0 */
   close_to(flow(&steel, .1, 1, 100), flow(&steel, .1, 1, 298));    /* colder than T0 */
+  steel.johnson_cook.rate0 = 50;
+  close_to(flow(&steel, .1, 1e3, 298), flow(&steel, .1, 1, 298) * (1 + .014 * log(20)));
+  steel.johnson_cook.rate0 = 1, steel.johnson_cook.n = 0; /* B counts from the start */
+  close_to(flow(&steel, 0, 1, 298), 792e6 + 510e6);
+  close_to(flow(&steel, .3, 1, 298), 792e6 + 510e6);
   assert_true(flow(&steel, .1, 1, 1793) == 0 && flow(&steel, 1, 1e6, 1e4) == 0);
 }
 
@@ -325,6 +362,38 @@ static void weakening(void **state)
   }
   assert_true(fabs(yield_weak(&w, 1 - 1e-12) - 1) < 1e-9);
   assert_true(fabs(yield_weak(&w, .85 * (1 + 1e-15)) - .5) < 2e-3);
+}
+
+/* Bui et al. (2008): the trial stress goes back along the flow, sqrt(J2) - G l, p + 3 b K l, to where
+ * the cone is (bisection), or to its axis; nothing lies beyond the apex. Melt and low density take
+ * their part off the cone. */
+static void regolith_return(void **state)
+{
+  const struct yield_regolith y = {2e3, .6, .3}, dry = {2e3, 0, .3};
+  const double t = tan(.6), root = sqrt(9 + 12 * t * t),
+               b = tan(.3) / sqrt(9 + 12 * pow(tan(.3), 2));
+  const double K = 2e6, G = 7e5;
+  (void)state;
+  for (double q = 0; q < 1e5; q = 2 * q + 100)
+    for (double p = -2e4; p < 2e4; p += 1e3)
+      for (double soft = 1; soft > .2; soft -= .5)
+        for (double weak = 1; weak > .2; weak -= .5) {
+          const double a = soft * t / root, k = soft * weak * 3 * 2e3 / root;
+          YieldPoint at = {
+              .s = {0, q, 0, 0, 0, 0}, .j2 = q * q, .p = p, .soft = soft, .weak = weak};
+          double low = 0, high = q / G;
+          if (q <= k + 3 * a * p) high = 0;
+          for (int n = 0; n < 200; n++) {
+            double l = .5 * (low + high);
+            *(q - G * l > k + 3 * a * (p + 3 * b * K * l) ? &low : &high) = l;
+          }
+          double want = fmax(p + 3 * b * K * high, -k / (3 * a));
+          double got = yield_regolith_pressure(&y, &at, K, G);
+          if (!(fabs(got - want) <= 1e-9 * (fabs(want) + q)))
+            fail_msg("q %g p %g: %.12g, want %.12g", q, p, got, want);
+        }
+  YieldPoint deep = {.p = -1e9, .soft = 1, .weak = 1};
+  assert_true(yield_regolith_pressure(&dry, &deep, K, G) == -1e9); /* no friction, no apex */
 }
 
 /* The partly vaporised states of Tillotson, and what is denser or colder than these. */
@@ -354,7 +423,10 @@ int main(void)
       cmocka_unit_test(tension),
       cmocka_unit_test(johnson_cook),
       cmocka_unit_test(weakening),
+      cmocka_unit_test(weak_laws),
+      cmocka_unit_test(unloaded),
       cmocka_unit_test(vapour),
+      cmocka_unit_test(regolith_return),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -20,7 +20,8 @@
 #define EOS_TABLE_ROWS(X) \
   X(rho0,    "kg/m^3", "0", 0, 1e30, "density at rest; 0: where the table has p = 0 at u = 0") \
   X(rho_min, "1",      "0", 0, 1,    "no tension below rho_min x rho0; 0: never cut") \
-  X(c_min,   "m/s",    "0", 0, 1e30, "floor of the sound speed; 0: 1 % of that at rest")
+  X(c_min,   "m/s",    "0", 0, 1e30, "floor of the sound speed; 0: 1 % of that at rest") \
+  X(vapour,  "1",      "2", 0, 1e3,  "number of the phase that has vapour, as ANEOS counts: no strength there; 0: none")
 /* clang-format on */
 
 struct eos_table {
@@ -34,16 +35,16 @@ struct eos_table {
 };
 
 /* The parts of data, in this order: axes [nrho], [ny]; then by nodes, rho outer: p and (heat) u,
- * each [4]: value, slopes with rho, y, both; c; and, not read by eos_table, s and T [4], phase. */
+ * each [4]: value, slopes with rho, y, both; c; phase; and, not needed in a run, s and T [4]. */
 enum {
   EOS_TABLE_RHO,
   EOS_TABLE_Y,
   EOS_TABLE_P,
   EOS_TABLE_U,
   EOS_TABLE_C,
+  EOS_TABLE_PHASE,
   EOS_TABLE_S,
   EOS_TABLE_T,
-  EOS_TABLE_PHASE,
   EOS_TABLE_PARTS
 };
 
@@ -56,13 +57,13 @@ HD size_t eos_table_start(const struct eos_table *e, int part)
   if (part > EOS_TABLE_P) at += 4 * n;
   if (part > EOS_TABLE_U && e->heat) at += 4 * n;
   if (part > EOS_TABLE_C) at += n;
+  if (part > EOS_TABLE_PHASE) at += n;
   if (part > EOS_TABLE_S) at += 4 * n;
   if (part > EOS_TABLE_T && !e->heat) at += 4 * n;
-  if (part > EOS_TABLE_PHASE) at += n;
   return at;
 }
 
-/* eos_table_words: how many numbers eos_table reads. */
+/* eos_table_words: how many numbers a run reads. */
 HD size_t eos_table_words(const struct eos_table *e) { return eos_table_start(e, EOS_TABLE_S); }
 
 HD const double *eos_table_part(const struct eos_table *e, int part)
@@ -274,6 +275,23 @@ HD int eos_table_outside(const struct eos_table *e, double rho, double u)
   return (rho < e->data[0] || rho > e->data[e->nrho - 1]) + (outside > 0 ? 2 : outside < 0 ? 4 : 0);
 }
 
+/* The table's number of the phase at the node nearest to a point. */
+HD int eos_table_phase(const struct eos_table *e, const EosTableCell *x, const EosTableCell *y)
+{
+  const int i = x->i + (x->v[1] > 0.5), j = y->i + (y->v[1] > 0.5);
+  return (int)eos_table_part(e, EOS_TABLE_PHASE)[(size_t)i * (size_t)e->ny + (size_t)j];
+}
+
+/* eos_table_vapour: whether the phase at rho, u is the one with vapour. */
+HD_CALL int eos_table_vapour(const struct eos_table *e, double rho, double u)
+{
+  EosTableCell x = eos_table_cell(e->data, e->nrho, rho), y;
+  int outside;
+  if (e->vapour <= 0) return 0;
+  y = eos_table_find(e, EOS_TABLE_U, &x, u, &outside);
+  return eos_table_phase(e, &x, &y) == (int)e->vapour;
+}
+
 /* What else a table knows of a state. */
 typedef struct {
   double u, T, s;    /* J/kg, K, J/kg/K */
@@ -289,7 +307,7 @@ HD EosTableState eos_table_state(const struct eos_table *e, double rho, int part
   EosTableCell x = eos_table_cell(e->data, e->nrho, rho), y;
   EosTableState out = {NAN, NAN, NAN, NAN, NAN, 0};
   EosTableValue u, T, s;
-  int outside, i = x.i, j;
+  int outside;
   const double *axis = eos_table_part(e, EOS_TABLE_Y);
   y = eos_table_find(e, part, &x, value, &outside);
   if (outside && part != EOS_TABLE_U) return out;
@@ -300,10 +318,9 @@ HD EosTableState eos_table_state(const struct eos_table *e, double rho, int part
   else
     T = eos_table_value(e, EOS_TABLE_T, &x, &y);
   s = eos_table_value(e, EOS_TABLE_S, &x, &y);
-  i += x.v[1] > 0.5, j = y.i + (y.v[1] > 0.5);
   out.u = u.f, out.T = T.f, out.s = s.f;
   out.u_T = u.y / T.y, out.u_rho = u.x - out.u_T * T.x;
-  out.phase = (int)eos_table_part(e, EOS_TABLE_PHASE)[(size_t)i * (size_t)e->ny + (size_t)j];
+  out.phase = eos_table_phase(e, &x, &y);
   if (outside > 0 && out.u_T > 0 && T.f > 0) {
     out.T = T.f + (value - u.f) / out.u_T;
     out.s += out.u_T * log(out.T / T.f);
