@@ -199,7 +199,7 @@ HD PorousPoint porosity_solve(const Porosity *q, const Eos *e, double rho, doubl
   c2 = t.solid.cs * t.solid.cs;
   out.e.p = t.p;
   out.e.cs = t.solid.cs / sqrt(1 - t.slope * (rho * c2 - t.p) / alpha);
-  /* the more exact of the two, unless compliance has used all pores up: then alpha is 1 under load */
+  /* the more exact of the two; where compliance has used all pores up alpha is 1 under load */
   out.alpha = t.rest < t.old && alpha > 1 ? alpha - t.slope * t.p : t.rest;
   out.stiff = porosity_stiffness(q, e, out.alpha);
   return out;

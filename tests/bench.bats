@@ -47,7 +47,8 @@ setup() {
   [[ $output == *"no column dram__throughput"* ]]
   printf '#!/bin/bash\necho no card; exit 1\n' >"$mock/step"
   run bench/ncu step
-  [ "$status" = 1 ] && [ "$output" = $'no card\nbench/ncu: \'step\' failed' ]
+  [ "$status" = 1 ]
+  [ "$output" = $'no card\nbench/ncu: \'step\' failed' ]
   rm "$mock/ncu"
   CUDA_HOME=$mock PATH=$mock:/usr/bin:/bin run bench/ncu step
   [ "$status" = 1 ] && [[ $output == "bench/ncu: cannot find ncu"* ]]
@@ -105,7 +106,8 @@ rows_of_cost() { bench/cost -l -d cpu "$@" step; }
   [ "$status" = 1 ]
   [[ $output == *$'hydro\t\t11.000\t\nform.xsph=0.5\thydro\t12.500\t+1.500\nform.diffusion=0.05\thydro\tfailed\t\n'* ]]
   [[ $output == *'bench/cost: form.diffusion=0.05: step: it does not work'* && ${lines[-1]} == "bench/cost: 1 of "*" rows gave no number" ]]
-  mkdir "$BATS_TEST_TMPDIR/bench" && cp bench/cost "$BATS_TEST_TMPDIR/bench"
+  mkdir "$BATS_TEST_TMPDIR/bench"
+  cp bench/cost "$BATS_TEST_TMPDIR/bench"
   printf 'above\n<!-- costs -->\nold\n<!-- /costs -->\nbelow\n' >"$BATS_TEST_TMPDIR/bench/compare.md"
   printf '# on a card\n# setting\tbase\tns a particle\tminus base\nhydro\t\t1.0\t\nx=1\thydro\t1.5\t+0.500\n# hydro: median of 2\n' >"$BATS_TEST_TMPDIR/t"
   "$BATS_TEST_TMPDIR/bench/cost" -p "$BATS_TEST_TMPDIR/t"
@@ -128,13 +130,17 @@ R
 
 @test "cost, step: what cannot be run is one line" {
   run bench/cost -k nonsense "$step"
-  [ "$status" = 1 ] && [ "$output" = "bench/cost: no setting matches 'nonsense'" ]
+  [ "$status" = 1 ]
+  [ "$output" = "bench/cost: no setting matches 'nonsense'" ]
   run bench/cost -n x "$step"
-  [ "$status" = 2 ] && [ "${#lines[@]}" = 1 ]
+  [ "$status" = 2 ]
+  [ "${#lines[@]}" = 1 ]
   run bench/cost nowhere/step
-  [ "$status" = 1 ] && [ "$output" = "bench/cost: cannot run 'nowhere/step'" ]
+  [ "$status" = 1 ]
+  [ "$output" = "bench/cost: cannot run 'nowhere/step'" ]
   run "$step" many hydro
-  [ "$status" = 2 ] && [[ ${lines[0]} == "step: 'many' is no number of particles"* ]]
+  [ "$status" = 2 ]
+  [[ ${lines[0]} == "step: 'many' is no number of particles"* ]]
   run "$step" 400 hydro cpu smoothing.width=3
   [ "$status" = 1 ] && [[ $output == *"smoothing.width = 3 has no effect: smoothing.mode = density"* ]]
 }

@@ -114,7 +114,7 @@ lines_of() { for ((k = 0; k < $1; k++)); do echo "$2"; done; }
 
 @test "tests of bats that cannot fail" {
   test_of() { printf '# SPDX-License-Identifier: GPL-3.0-or-later\n@test "x" {\n%s\n  true\n}\n' "$1" >tests/x.bats; }
-  for bad in '  [ 1 = 2 ] && true' '  for k in 1; do false && true; done' '  true && ! true' '  { false && true; } >x' $'  false &&\n    true'; do
+  for bad in '  [ 1 = 2 ] && true' '  for k in 1; do false && true; done' '  true && ! true' '  { false && true; } >x' '  true && echo ${x}' $'  false &&\n    true'; do
     test_of "$bad"
     run tests/lint build
     [ "$status" = 1 ]
@@ -123,7 +123,7 @@ lines_of() { for ((k = 0; k < $1; k++)); do echo "$2"; done; }
   done
   test_of '  ! true'
   found 'tests/x.bats:3: `!` hides a failure'
-  for good in '  false && true || return 1' '  if false && true; then true; fi' '  x="$(false && echo 1)" # a && b' "  awk 'a && b" '  [[ 1 = 1 && 2 = 2 ]]' \
+  for good in '  false && true || return 1' '  if false && true; then true; fi' '  x="$(false && echo 1)" # a && b' "  awk 'a && b" '  [[ ${lines[-1]} && 2 = 2 ]]' \
     '  f() { false && true; }' $'  cat <<T\na && b\nT'; do
     test_of "$good"
     run tests/lint build

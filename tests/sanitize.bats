@@ -5,7 +5,8 @@
 
 setup() {
   cd "$BATS_TEST_DIRNAME/.."
-  mock=$BATS_TEST_TMPDIR/bin && mkdir -p "$mock" "$BATS_TEST_TMPDIR/tests"
+  mock=$BATS_TEST_TMPDIR/bin
+  mkdir -p "$mock" "$BATS_TEST_TMPDIR/tests"
   for t in tests/test_cuda_*.c*; do
     t=${t##*/}
     printf '#!/bin/bash\necho "%s $BRECCIA_TEST_ONLY $BRECCIA_TEST_SMALL" >>"$SAID"\n' "${t%.*}" >"$BATS_TEST_TMPDIR/tests/${t%.*}"
@@ -32,7 +33,8 @@ M
   LIMIT=4 JOBS=4 run tests/sanitize
   echo "$output"
   all=$(grep -ohE 'cmocka_unit_test\([a-z_0-9]+' tests/test_cuda_*.c* | wc -l)
-  [ "$all" -gt 30 ] && [ "$status" = 1 ]
+  [ "$all" -gt 30 ]
+  [ "$status" = 1 ]
   [ "${lines[-1]}" = "$((2 * all - 2)) passed, 2 failed" ]
   grep -qE '^FAIL  racecheck  cuda_backend\.passes +[0-9]+ s, the sanitizer has found something$' <<<"$output"
   grep -qE '^FAIL  memcheck   cuda_backend\.bits +[0-9]+ s, ran past 4 s$' <<<"$output"
@@ -45,9 +47,11 @@ M
 
 @test "sanitize: one tool, one test; no such test, no sanitizer" {
   TOOLS=racecheck run tests/sanitize 'cuda_tree.without*'
-  [ "$status" = 0 ] && [ "${lines[-1]}" = '2 passed, 0 failed' ]
+  [ "$status" = 0 ]
+  [ "${lines[-1]}" = '2 passed, 0 failed' ]
   run tests/sanitize nothing
-  [ "$status" = 1 ] && [ "$output" = "tests/sanitize: no test matches 'nothing'" ]
+  [ "$status" = 1 ]
+  [ "$output" = "tests/sanitize: no test matches 'nothing'" ]
   rm "$mock/compute-sanitizer"
   CUDA_HOME=$mock PATH=$mock:/usr/bin:/bin run tests/sanitize
   [ "$status" = 1 ] && [[ $output == 'tests/sanitize: cannot find compute-sanitizer'* ]]

@@ -75,7 +75,7 @@ static double *get(Sim *sim, const Array *a)
 
 /* How much rounding grows on its way into element k of a: the corrected gradient is the raw one
  * times the inverse moment matrix (cm, as get has it), which is large where neighbours are on one
- * side; the rate of S has the slope of a crush curve from a difference over 1e-4 of the pressure. */
+ * side; the rate of S has the slope of a crush curve, a difference over 1e-4 of the pressure. */
 static double growth(const Array *a, const double *cm, long k)
 {
   double largest = strcmp(a->name, "ds") == 0 ? 100 : 1;

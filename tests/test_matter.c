@@ -411,7 +411,7 @@ static void soft(void **state)
   one_free(o);
 }
 
-/* Strains of porous matter are those of its soft moduli: the plastic strain, and what flaws feel. */
+/* Strains of porous matter are those of its soft moduli: plastic strain, and what flaws feel. */
 static void soft_strains(void **state)
 {
   const double shear[9] = {0, .5, 0, .5, 0, 0, 0, 0, 0}, h = 1000 / sqrt(30e9 / 2700);

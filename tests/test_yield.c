@@ -301,8 +301,8 @@ static void unloaded(void **state)
     }
 }
 
-/* Half the cohesion is half the strength without pressure, of each law (of Collins the broken rock),
- * and half the tension. */
+/* Half the cohesion is half the strength without pressure, of each law (of Collins the broken
+ * rock), and half the tension. */
 static void weak_laws(void **state)
 {
   (void)state;
@@ -364,9 +364,9 @@ static void weakening(void **state)
   assert_true(fabs(yield_weak(&w, .85 * (1 + 1e-15)) - .5) < 2e-3);
 }
 
-/* Bui et al. (2008): the trial stress goes back along the flow, sqrt(J2) - G l, p + 3 b K l, to where
- * the cone is (bisection), or to its axis; nothing lies beyond the apex. Melt and low density take
- * their part off the cone. */
+/* Bui et al. (2008): the trial stress goes back along the flow, sqrt(J2) - G l, p + 3 b K l, to
+ * where the cone is (bisection), or to its axis; nothing lies beyond the apex. Melt and low density
+ * take their part off the cone. */
 static void regolith_return(void **state)
 {
   const struct yield_regolith y = {2e3, .6, .3}, dry = {2e3, 0, .3};
