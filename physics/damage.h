@@ -71,11 +71,12 @@ HD double damage_crack_speed(const struct damage_grady_kipp *d, double bulk, dou
   return d->crack * sqrt((bulk + 4. / 3 * mu * (1 - damage)) / rho);
 }
 
-/* damage_left: by how much D^(1/3) can still grow before it meets the limit ever/ntot; 0 there. */
-HD double damage_left(double damage, int ever, int ntot)
+/* damage_left: by how much root = D^(1/3) can still grow before D meets the limit ever/ntot, ntot >
+ * 0; 0 there. */
+HD double damage_left(double root, int ever, int ntot)
 {
-  double limit = (double)ever / ntot;
-  return damage < limit ? cbrt(limit) - cbrt(damage) : 0;
+  double limit = cbrt((double)ever / ntot);
+  return root < limit ? limit - root : 0;
 }
 
 /* damage_grow: D after dt [s] with nact of ntot flaws active now and `ever` so far. D^(1/3) grows

@@ -47,9 +47,11 @@ HD_CALL void limits_asked(const State *s, const Step *k, long i, double *dt)
     dt[LIMIT_ENERGY] = limits_ratio(of[LIMIT_ENERGY], fabs(s->u[i]) + k->energy_least, s->dudt[i]);
   dt[LIMIT_SMOOTHING] = limits_ratio(of[LIMIT_SMOOTHING], 1, passes_swell(s, k, i));
   dt[LIMIT_STRESS] = limits_stress(s, k, i);
-  if (k->damage)
+  if (k->damage && of[LIMIT_DAMAGE] > 0) {
+    const double root = cbrt(s->damage[i]);
     dt[LIMIT_DAMAGE] =
-        limits_ratio(of[LIMIT_DAMAGE], cbrt(s->damage[i]) + k->damage_least, s->dcrack[i]);
+        limits_ratio(of[LIMIT_DAMAGE], root + k->damage_least, passes_crack_rate(s, i, root));
+  }
   if (s->rare && s->alpha) limits_pores(s, k, i, dt);
 }
 

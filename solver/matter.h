@@ -224,14 +224,16 @@ HD void matter_yield(const State *s, long i, int count, double heat, double dt)
 }
 
 /* passes_strain: the local scalar strain sigma_max/((1-D) E) (001 eq. 48); the stress is the
- * damaged one. Where damage does not act on S, E is the whole one, too. */
+ * damaged one. Where damage does not act on S, E is the whole one, too. At D = 1 its limit: in
+ * tension that does not depend on D, under pressure there is none. */
 HD double passes_strain(const State *s, long i)
 {
   const Material *m = &s->material[s->mat[i]];
-  double left = damage_shear(&m->damage, s->damage[i]), p = s->p[i], largest;
-  if (left <= 0) return 0;
-  largest =
-      left * tensor_largest(passes_stress(&s->s[6 * i])) - (p < 0 ? (1 - s->damage[i]) * p : p);
+  double left = damage_shear(&m->damage, s->damage[i]), whole = 1 - s->damage[i], p = s->p[i];
+  double largest;
+  if (left <= 0 && p >= 0) return 0;
+  if (left <= 0) left = whole = 1;
+  largest = left * tensor_largest(passes_stress(&s->s[6 * i])) - (p < 0 ? whole * p : p);
   return largest > 0 ? largest / (left * matter_stiff(s, m, i) * material_young(m)) : 0;
 }
 
@@ -243,8 +245,10 @@ HD double passes_crack(const State *s, const Material *m, long i, double damage)
 }
 
 /* passes_damage: activates flaws and lets cracks grow for dt, at the crack speed of the middle of
- * the step; keeps the rate of the cube root of D for rk2. The step needs no limit for it: the
- * strain that flaws feel does not depend on D, and growth at a constant rate is exact. */
+ * the step. The step needs no limit for it: the strain that flaws feel does not depend on D in
+ * tension, and growth at a constant rate is exact. Keeps the rate of the cube root of D whether or
+ * not D is at its limit: a stage of another integrator that is there already must not stop the step
+ * short of it (passes_crack_rate). */
 HD void passes_damage(const State *s, long i, double dt)
 {
   const Material *m = &s->material[s->mat[i]];
@@ -252,15 +256,23 @@ HD void passes_damage(const State *s, long i, double dt)
   double half, cg, h = s->h[i];
   s->dcrack[i] = 0;
   if (m->damage.form == DAMAGE_NONE || s->nflaw[i] == 0 || m->mu <= 0) return;
+  if (dt > 0 && s->damage[i] >= 1) return;
   active = damage_active(s->flaw + s->flaw0[i], s->nflaw[i], passes_strain(s, i));
   if (active == 0) return;
   if (active > s->nact[i]) s->nact[i] = active;
   cg = passes_crack(s, m, i, s->damage[i]);
-  if (damage_left(s->damage[i], s->nact[i], s->nflaw[i]) > 0) s->dcrack[i] = active * cg / h;
+  s->dcrack[i] = active * cg / h;
   if (dt <= 0) return;
   half = damage_grow(s->damage[i], active, s->nact[i], s->nflaw[i], cg, h, 0.5 * dt);
   cg = passes_crack(s, m, i, half);
   s->damage[i] = damage_grow(s->damage[i], active, s->nact[i], s->nflaw[i], cg, h, dt);
+}
+
+/* passes_crack_rate: the rate at which the cube root of D, now root, grows; 0 at its limit. */
+HD double passes_crack_rate(const State *s, long i, double root)
+{
+  if (!(s->dcrack[i] > 0)) return 0;
+  return damage_left(root, s->nact[i], s->nflaw[i]) > 0 ? s->dcrack[i] : 0;
 }
 
 #endif

@@ -259,7 +259,8 @@ HD double passes_heating(const State *s, const Step *k, long i)
   return k->energy == 1 ? -s->p[i] * s->divv[i] / s->rho[i] : 0;
 }
 
-/* save: the evolved quantities, or their rates, into saved[slot]. Damage goes by its cube root. */
+/* save: the evolved quantities, or their rates, into saved[slot]. Damage goes by its cube root,
+ * which stops growing only where the step began at its limit. */
 HD void pass_save(const State *s, const Step *k, long i)
 {
   const Saved *to = &s->saved[k->slot];
@@ -273,7 +274,8 @@ HD void pass_save(const State *s, const Step *k, long i)
   if (k->rates && s->drho) to->rho[i] += s->drho[i];
   to->u[i] = k->rates ? passes_heating(s, k, i) : s->u[i];
   to->h[i] = k->rates ? (k->smoothing ? s->h[i] * passes_swell(s, k, i) : 0) : s->h[i];
-  to->crack[i] = k->rates ? s->dcrack[i] : cbrt(s->damage[i]);
+  if (!k->rates) to->crack[i] = cbrt(s->damage[i]);
+  if (k->rates) to->crack[i] = k->damage ? passes_crack_rate(s, i, s->saved[0].crack[i]) : 0;
   if (s->alpha) to->alpha[i] = s->alpha[i];
   if (to->active && !k->rates) to->active[i] = s->nact[i];
 }

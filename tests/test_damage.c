@@ -148,9 +148,9 @@ static void left(void **state)
   for (int n = 1; n <= 300; n++)
     for (int ever = 1; ever <= n; ever++) {
       double d = damage_grow(0, ever, ever, n, 1, 1, 2);
-      assert_true(damage_left(d, ever, n) == 0);
-      assert_true(damage_left(0.125 * d, ever, n) > 0);
-      assert_true(fabs(damage_left(0.125 * d, ever, n) - 0.5 * cbrt(d)) < 1e-14);
+      assert_true(damage_left(cbrt(d), ever, n) == 0);
+      assert_true(damage_left(0.5 * cbrt(d), ever, n) > 0);
+      assert_true(fabs(damage_left(0.5 * cbrt(d), ever, n) - 0.5 * cbrt(d)) < 1e-14);
     }
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every integrator of the list: unequal steps of v' = -rate v against the scheme written out as in
- * its source, and what a collision conserves. Their order is in test_order, restarts in
- * test_restart. */
+ * its source, what a collision conserves, and where damage ends. Their order is in test_order,
+ * restarts in test_restart. */
 #include <omp.h>
 #include "lab.h"
 
@@ -9,6 +9,10 @@ static const char GAS[] = "name = \"gas\"; eos = { form = \"ideal\"; gamma = 1.4
 static const char RUBBER[] =
     "name = \"r\"; eos = { form = \"murnaghan\"; rho0 = 1.; K = 1.; n = 2.; };"
     "strength = { shear_modulus = 0.5; form = \"none\"; };";
+static const char ROCK[] =
+    "name = \"b\"; eos = { form = \"murnaghan\"; rho0 = 1.; K = 1.; n = 2.; };"
+    "strength = { shear_modulus = 1.; form = \"none\"; };"
+    "damage = { form = \"grady_kipp\"; k = 1e10; m = 5.; };";
 
 /* A scheme on v' = f = -rate v, for one step z = rate dt: v and f at its end from those before; w:
  * this step over the last one. */
@@ -154,9 +158,55 @@ static void collision(void **state)
   }
 }
 
+/* A ball that expands; 3 to 9 flaws of a particle open soon, `shut` others never. */
+static Parts *tearing(int shut)
+{
+  double dx = .36;
+  long n = lab_lattice(dx, 4, 3, in_ball, NULL, NULL);
+  Parts *p = lab_parts(n, 3, ROCK);
+  lab_lattice(dx, 4, 3, in_ball, NULL, p->x);
+  p->nflaw = malloc(sizeof *p->nflaw * (size_t)n);
+  p->flaw = malloc(sizeof *p->flaw * (size_t)(9 + shut) * (size_t)n);
+  for (long i = 0; i < n; i++) {
+    int open = 3 + (int)(i % 7);
+    for (int d = 0; d < 3; d++) p->v[3 * i + d] = .05 * p->x[3 * i + d];
+    p->m[i] = dx * dx * dx, p->rho[i] = 1, p->h[i] = 2.2 * dx, p->nflaw[i] = open + shut;
+    for (int k = 0; k < open + shut; k++) p->flaw[p->flaws++] = k < open ? 1e-4 : 10;
+  }
+  return p;
+}
+
+/* D reaches its limit, also where D^(1/3) grows by 0.1 to 0.4 a step and a stage of the step
+ * therefore meets the limit first. */
+static void crack(void **state)
+{
+  (void)state;
+  for (int k = 0; k < ALL; k++)
+    for (int shut = 0; shut <= 2; shut += 2) {
+      Parts *p = tearing(shut);
+      char name[64];
+      Param par = lab_param("gravity.method=none", "precision=double", "step.error=1",
+                            setting(k, name, sizeof name), NULL);
+      double short_of = 0;
+      long steps;
+      Sim sim;
+      lab_open(&sim, &par, p);
+      steps = lab_run(&sim, 1.2);
+      lab_store(&sim, p);
+      for (long i = 0; i < p->n; i++)
+        short_of = fmax(short_of, fabs(1 - (double)shut / p->nflaw[i] - p->damage[i]));
+      print_message("%s: %ld steps, %d flaws shut, D misses its limit by %.1e at most\n", name,
+                    steps, shut, short_of);
+      assert_true(short_of < 1e-14);
+      sim_close(&sim);
+      part_free(p);
+    }
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(decay), cmocka_unit_test(collision)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(decay), cmocka_unit_test(collision),
+                                     cmocka_unit_test(crack)};
   omp_set_num_threads(1);
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
