@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# gnuplot -c cloud.gp density.tsv OUT.png: the largest density over time, with that of another code at 8217 particles.
+# gnuplot -c cloud.gp OUT.png density.tsv [density_LENGTH.tsv ...]: the largest density over time, softened by h and by Plummer's lengths,
+# with that of another code at 8217 particles.
 set terminal pngcairo size 700,500
-set output ARG2
+set output ARG1
 set datafile commentschars '#'
 $probe << EOD
 0.51 3.64e-14
@@ -11,4 +12,6 @@ $probe << EOD
 1.20 4.2e-12
 EOD
 set logscale y; set format y '10^{%L}'; set xlabel 't/t_{ff}'; set ylabel 'largest density [kg/m^3]'; set key left top
-plot ARG1 using 1:2 with linespoints pt 7 ps 0.5 title 'here', $probe using 1:2 with points pt 6 title 'another code, 8217 particles'
+title_of(file) = file[strstrt(file, 'density') + 8 : strlen(file) - 4].' R'
+plot ARG2 using 1:2 with linespoints pt 7 ps 0.5 title 'softened by h', \
+  for [k = 3:ARGC] ARGV[k] using 1:2 with linespoints pt 7 ps 0.5 title title_of(ARGV[k]), $probe using 1:2 with points pt 6 title 'another code, 8217 particles'
