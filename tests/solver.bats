@@ -45,6 +45,12 @@ like_whole() {
   grep -q 'damage\|cfl' conserved.tsv
 }
 
+@test "--parameters prints the table of docs/run.md" {
+  solver --parameters | grep '^| `' >printed
+  grep '^| `' "$BATS_TEST_DIRNAME/../docs/run.md" | diff printed -
+  [ "$(wc -l <printed)" -gt 100 ]
+}
+
 @test "--profile: every pass with its share, which add up to the whole; the run is the same" {
   solver -c ../run.cfg -o run --end +300s --every 300s --profile ../s.h5 2>passes
   grep -q "^# pass.* particles, .* steps, " passes

@@ -293,9 +293,13 @@ static void clumping(void **state)
   (void)state;
   const double without = closest("", 0), with = closest("stress.artificial=0.3", 0),
                turned = closest("stress.artificial=0.3", .6);
+  /* the spacing of m, rho and h; a much smaller one, with less stress */
+  const double given = closest("stress.artificial=0.3 stress.spacing=0.341993", 0),
+               close = closest("stress.artificial=0.3 stress.spacing=0.01", 0);
   print_message("closest pair %.3f, with artificial stress %.3f, turned %.3f\n", without, with,
                 turned);
   assert_true(with > without + .15 && fabs(turned / with - 1) < 1e-3);
+  assert_true(fabs(given / with - 1) < 1e-3 && close < with - .1);
 }
 
 /* What of a tensor is tension: of known axes, in any frame. */
