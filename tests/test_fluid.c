@@ -91,6 +91,20 @@ static void power(void **state)
   }
 }
 
+/* Shakura & Sunyaev (1973): nu = alpha c H, H = aspect r with r from the origin in all directions;
+ * eta = rho nu, and what it adds to the signal. */
+static void thin_disk(void **state)
+{
+  double x[3] = {1, 2, 2}, g[9] = {0, .3}, cs = 2, h = .5, rho = 4, cl = 2.5;
+  const double nu = .1 * 2 * .05 * 3;
+  State s = {.n = 1, .x = x, .g = g, .cs = &cs, .h = &h, .rho = &rho, .cl = &cl};
+  Fluid f = {.shakura = .1, .aspect = .05};
+  Sym t = fluid_stress(&s, &f, 0);
+  (void)state;
+  assert_true(fabs(t.xy - 4 * nu * .3) < 1e-15 && t.xx == 0 && t.zz == 0);
+  assert_true(fabs(cl - 2.5 - 8 * nu / .5) < 1e-14);
+}
+
 /* A fluid that turns rigidly feels no viscosity, at its free surface neither. */
 static void rotation(void **state)
 {
@@ -223,8 +237,8 @@ static void fall(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(power),   cmocka_unit_test(rotation),
-                                     cmocka_unit_test(wave),    cmocka_unit_test(limit),
-                                     cmocka_unit_test(deposit), cmocka_unit_test(balance),
-                                     cmocka_unit_test(fall)};
+                                     cmocka_unit_test(wave),    cmocka_unit_test(thin_disk),
+                                     cmocka_unit_test(limit),   cmocka_unit_test(deposit),
+                                     cmocka_unit_test(balance), cmocka_unit_test(fall)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
