@@ -113,6 +113,11 @@ static void von_mises(void **state)
   near(o->s.s[1], y / sqrt(3), 1e-12);
   near(o->s.strain[0], (r * t - elastic) / sqrt(3), 1e-9);
   near(o->s.u[0], y / sqrt(3) * (r * t - elastic / 2) / 2700, 1e-3);
+  o->m.melt = 4 * o->s.u[0]; /* heat takes a quarter off, then all */
+  strain(o, g, 1e-3 * t, 1);
+  near(o->s.s[1], .75 * y / sqrt(3), 1e-3);
+  o->m.melt = o->s.u[0], strain(o, g, 1e-3 * t, 1);
+  assert_true(root_j2(o) == 0);
   one_free(o);
 }
 
