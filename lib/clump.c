@@ -5,18 +5,19 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "clump.h"
+#include "bound.h"
 #include "fof.h"
 #include "group.h"
 #include "ngb.h"
+#include "pointmass.h"
 #include "potential.h"
 #include "sort.h"
 #include "unit.h"
 
 /* LARGE: sets that are worth all threads; smaller ones are worked on side by side. */
 enum { ROUNDS = 100, LARGE = 20000 };
-/* Mass fraction of a fragment that starts a body, and of a body that carries its frame. */
-#define CORE 0.1
+/* Mass fraction of a fragment that starts a body. */
+#define CORE BOUND_CORE
 
 /* Candidates, who of them is a member, and copies of what is asked of them again and again. */
 typedef struct {
@@ -28,24 +29,13 @@ typedef struct {
   unsigned char *in, *next, *before;
   double frame[3]; /* m/s, of the last judgement */
   int fresh;       /* phi is that of the members */
+  int heavy;       /* a single member may hold others: it is a point mass */
   Potential pot;
 } Work;
 
 static int no_memory(long n, Err *err)
 {
   return err_set(err, "out of memory for %ld particles", n);
-}
-
-static double heat(const Parts *p, long i, ClumpLevel level)
-{
-  double e = level >= CLUMP_THERMAL ? p->u[i] : 0;
-  return level >= CLUMP_ENTHALPY ? e + fmax(0, p->p[i]) / p->rho[i] : e;
-}
-
-static double speed2(const double *a, const double *b)
-{
-  double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
-  return x * x + y * y + z * z;
 }
 
 static void work_close(Work *w)
@@ -71,26 +61,8 @@ static int work_open(Work *w, const Parts *p, const ClumpOptions *o, const long 
     const long i = w->list[k] = list[k];
     memcpy(w->x + 3 * k, p->x + 3 * i, 3 * sizeof *w->x);
     memcpy(w->v + 3 * k, p->v + 3 * i, 3 * sizeof *w->v);
-    w->m[k] = p->m[i], w->heat[k] = heat(p, i, o->level);
+    w->m[k] = p->m[i], w->heat[k] = bound_heat(p, i, o->level);
   }
-  return 0;
-}
-
-/* Velocity of the particles with the lowest potential, a tenth of the mass: phi [n] J/kg (INFINITY:
- * not of them), masses m, velocities v [n][3]. Equal potentials: the first first. */
-static int frame(long n, const double *phi, const double *m, const double *v, long *order,
-                 double out[3], Err *err)
-{
-  double mass = 0, sum = 0;
-  if (sort_reals(n, phi, order)) return no_memory(n, err);
-  for (long k = 0; k < n; k++) mass += phi[k] < INFINITY ? m[k] : 0;
-  out[0] = out[1] = out[2] = 0;
-  for (long k = 0; k < n && sum < CORE * mass; k++) {
-    const long j = order[k];
-    for (int a = 0; a < 3; a++) out[a] += m[j] * v[3 * j + a];
-    sum += m[j];
-  }
-  for (int a = 0; a < 3 && sum > 0; a++) out[a] /= sum;
   return 0;
 }
 
@@ -99,10 +71,10 @@ static int judge(Work *w, Err *err)
 {
   if (potential_sum(&w->pot, w->in, NULL, w->o->theta, w->phi, err)) return -1;
   for (long k = 0; k < w->n; k++) w->key[k] = w->in[k] ? w->phi[k] : INFINITY;
-  if (frame(w->n, w->key, w->m, w->v, w->order, w->frame, err)) return -1;
+  if (bound_frame(w->n, w->key, w->m, w->v, w->order, w->frame, err)) return -1;
 #pragma omp parallel for if (w->n >= LARGE)
   for (long k = 0; k < w->n; k++)
-    w->next[k] = 0.5 * speed2(w->v + 3 * k, w->frame) + w->heat[k] + w->phi[k] < 0;
+    w->next[k] = 0.5 * bound_speed2(w->v + 3 * k, w->frame) + w->heat[k] + w->phi[k] < 0;
   return 0;
 }
 
@@ -127,7 +99,7 @@ static int point_binds(const Point *c, const Work *w, long k)
 {
   const double d = group_apart(w->x + 3 * k, c->x),
                mu = UNIT_G * (c->mass + (w->in[k] ? 0 : w->m[k]));
-  return w->m[k] > 0 && d * (0.5 * speed2(w->v + 3 * k, c->v) + w->heat[k]) < mu;
+  return w->m[k] > 0 && d * (0.5 * bound_speed2(w->v + 3 * k, c->v) + w->heat[k]) < mu;
 }
 
 /* The same as judge for the point mass of the members. */
@@ -156,7 +128,7 @@ static long settle(Work *w, int (*rule)(Work *, Err *), Err *err)
 {
   size_t n = (size_t)w->n;
   memset(w->before, 2, n), w->fresh = 0;
-  for (int round = 0; round < ROUNDS && members(w) > 1 && !w->fresh; round++) {
+  for (int round = 0; round < ROUNDS && members(w) > !w->heavy && !w->fresh; round++) {
     if (rule(w, err)) return -1;
     w->fresh = !memcmp(w->next, w->in, n);
     if (w->fresh) continue;
@@ -190,26 +162,6 @@ static long core(Work *w, const unsigned char *open, const double *depth, double
   return left;
 }
 
-/* Of the particles list [n] with potential own [n] J/kg: how many are bound at a level, and their
- * mass [kg]. */
-static long count_bound(const Parts *p, const long *list, long n, const double *own,
-                        ClumpLevel level, double *mass, Err *err)
-{
-  const size_t room = (size_t)n + 1;
-  double *m = calloc(4 * room, sizeof *m), *v = m + n, centre[3];
-  long *order = malloc(room * sizeof *order), bound = 0;
-  if (!m || !order) return free(m), free(order), no_memory(n, err);
-  for (long k = 0; k < n; k++)
-    m[k] = p->m[list[k]], memcpy(v + 3 * k, p->v + 3 * list[k], 3 * sizeof *v);
-  int failed = frame(n, own, m, v, order, centre, err);
-  *mass = 0;
-  for (long k = 0; k < n && !failed; k++)
-    if (0.5 * speed2(v + 3 * k, centre) + heat(p, list[k], level) + own[k] < 0)
-      *mass += m[k], bound++;
-  free(m), free(order);
-  return failed ? -1 : bound;
-}
-
 /* How many of the members would be bound to them alone; 0 when it is less than a tenth: some of any
  * crowd go the same way. */
 static long holds(const Work *w, Err *err)
@@ -221,7 +173,7 @@ static long holds(const Work *w, Err *err)
     if (w->in[k]) list[n++] = w->list[k];
   if (!list || !own) no_memory(n, err);
   if (list && own && !potential_own(w->p, list, n, w->o->theta, own, err))
-    bound = count_bound(w->p, list, n, own, w->o->level, &mass, err);
+    bound = bound_count(w->p, list, n, own, w->o->level, &mass, err);
   free(list), free(own);
   return bound >= 0 && (double)bound < CORE * (double)n ? 0 : bound;
 }
@@ -324,7 +276,7 @@ static int search_fragments(Found *f, unsigned char *keep, int32_t *frag, int *m
 /* Loose particles, and the body that binds each of them most so far. */
 typedef struct {
   long n, *list;
-  double *energy; /* J/kg, < 0 where one binds it */
+  double *energy; /* J/kg, < 0 where one binds it; with point masses over the body's mass */
   int32_t *to;
   unsigned char *near; /* scratch */
 } Loose;
@@ -360,7 +312,7 @@ static long candidates(const Found *f, Loose *l, const long *list, long n, const
   for (long k = 0; k < l->n; k++) {
     const long i = l->list[k];
     double d = group_apart(p->x + 3 * i, x) - rim,
-           e = 0.5 * speed2(p->v + 3 * i, v) + heat(p, i, f->o->level);
+           e = 0.5 * bound_speed2(p->v + 3 * i, v) + bound_heat(p, i, f->o->level);
     l->near[k] = d <= 0 || d * e < UNIT_G * mass;
     near += l->near[k];
   }
@@ -379,6 +331,8 @@ static int bind(const Found *f, Loose *l, const long *list, long n, long c, Err 
   unsigned char *in = calloc(room, 1), *out = calloc(room, 1);
   double *phi = malloc(room * sizeof *phi);
   Potential pot = {0};
+  double mass = 0;
+  for (long k = 0; k < n; k++) mass += p->m[list[k]];
   int failed = all && who && in && out && phi ? 0 : no_memory(n + near, err);
   if (!failed) memcpy(all, list, (size_t)n * sizeof *all), memset(in, 1, (size_t)n);
   for (long k = 0; k < l->n && !failed; k++)
@@ -386,7 +340,9 @@ static int bind(const Found *f, Loose *l, const long *list, long n, long c, Err 
   failed = failed || potential_open(&pot, p, all, n + near, err) ||
            potential_sum(&pot, in, out, f->o->theta, phi, err);
   for (long k = n; k < n + near && !failed; k++) {
-    double e = 0.5 * speed2(p->v + 3 * all[k], v) + heat(p, all[k], f->o->level) + phi[k];
+    double e =
+        0.5 * bound_speed2(p->v + 3 * all[k], v) + bound_heat(p, all[k], f->o->level) + phi[k];
+    if (p->point_rows) e /= mass; /* -G/(2 a): a star does not take what orbits its planets */
     if (e < l->energy[who[k]]) l->energy[who[k]] = e, l->to[who[k]] = (int32_t)c;
   }
   potential_close(&pot), free(all), free(who), free(in), free(out), free(phi);
@@ -433,6 +389,19 @@ static int adopt(Found *f, Err *err)
   return joined < 0 ? -1 : 0;
 }
 
+/* A point mass that is in no body is one of its own. */
+static int lone_points(Found *f, Err *err)
+{
+  const Parts *p = f->p;
+  if (p->point_rows && found_more(f, p->point_rows, err)) return -1;
+  for (long i = p->n - p->point_rows; i < p->n; i++) {
+    if (f->id[i]) continue;
+    f->id[i] = (int32_t)++f->found, f->stale[f->found] = 1;
+    memcpy(f->frame[f->found], p->v + 3 * i, sizeof f->frame[0]);
+  }
+  return 0;
+}
+
 static int by_potential(Found *f, Err *err)
 {
   unsigned char *keep = malloc((size_t)f->p->n + 1);
@@ -441,7 +410,7 @@ static int by_potential(Found *f, Err *err)
   if (keep) memset(keep, 1, (size_t)f->p->n + 1);
   while (more && !failed) failed = search_fragments(f, keep, frag, &more, err);
   free(keep), free(frag);
-  return failed ? -1 : adopt(f, err);
+  return failed || lone_points(f, err) ? -1 : adopt(f, err);
 }
 
 /* Where the particles are, and where each is among the candidates. */
@@ -485,6 +454,7 @@ static int sow(Places *s, long seed)
   Point c = {0};
   long bound = 0;
   s->n = 0;
+  if (w->heavy) return w->in[seed] = 1;
   ngb_point(&s->tree, s->x, NULL, w->x + 3 * seed, w->p->h[w->list[seed]], found_near, s);
   for (long k = 0; k < s->n; k++) w->in[s->near[k]] = 1, point_add(&c, w, s->near[k]);
   point_end(&c);
@@ -516,23 +486,40 @@ static void close_ranks(Places *s)
 static int grow_bodies(Found *f, Places *s, Err *err)
 {
   Work *w = s->w;
-  long left = w->n;
-  for (long seed = 0; left >= f->o->least && seed < w->n; seed++) {
+  long left = w->n, points = w->p->point_rows;
+  for (long seed = 0; (left >= f->o->least || seed < points) && seed < w->n; seed++) {
     if (w->m[seed] <= 0) continue;
+    w->heavy = pointmass_row(w->p, w->list[seed]);
     const int holds_some = sow(s, seed);
     const long n = holds_some ? settle(w, judge_point, err) : 0;
-    if (n < 0 || (n >= f->o->least && found_more(f, 1, err))) return -1;
-    if (n >= f->o->least) f->stale[++f->found] = 1;
+    const int is = n >= f->o->least || w->heavy;
+    if (n < 0 || (is && found_more(f, 1, err))) return -1;
+    if (is) f->stale[++f->found] = 1;
     for (long k = 0; k < w->n && holds_some; k++) {
       if (!w->in[k] || k == seed) continue;
-      if (n >= f->o->least) f->id[w->list[k]] = (int32_t)f->found;
+      if (is) f->id[w->list[k]] = (int32_t)f->found;
       leave(s, k), left--;
     }
-    if (n >= f->o->least && w->in[seed]) f->id[w->list[seed]] = (int32_t)f->found;
+    if (is && w->in[seed]) f->id[w->list[seed]] = (int32_t)f->found;
     leave(s, seed), left--;
-    if (left < w->n / 2) close_ranks(s), seed = -1;
+    if (left < w->n / 2) close_ranks(s), seed = -1, points = w->p->point_rows;
   }
   return 0;
+}
+
+/* Point masses first, by descending mass. */
+static int heavy_first(const Parts *p, long *deep, Err *err)
+{
+  const long n = p->n - p->point_rows;
+  double *light = malloc(((size_t)p->point_rows + 1) * sizeof *light);
+  long *order = malloc(((size_t)p->point_rows + 1) * sizeof *order), last = p->n;
+  for (long k = 0; k < p->point_rows && light; k++) light[k] = -p->m[n + k];
+  int failed = !light || !order || sort_reals(p->point_rows, light, order);
+  for (long k = p->n - 1; k >= 0 && !failed; k--)
+    if (!pointmass_row(p, deep[k])) deep[--last] = deep[k];
+  for (long k = 0; k < p->point_rows && !failed; k++) deep[k] = n + order[k];
+  free(light), free(order);
+  return failed ? no_memory(p->point_rows, err) : 0;
 }
 
 /* Seeds in the order of the potential of the whole system, equal ones by id. */
@@ -544,6 +531,7 @@ static int by_growth(Found *f, Err *err)
   if (!failed) failed = potential_own(f->p, order, n, f->o->theta, f->phi, err);
   if (!failed && sort_reals(n, f->phi, deep)) failed = no_memory(n, err);
   for (long k = 0; k < n && !failed; k++) deep[k] = order[deep[k]];
+  if (f->p->point_rows && !failed) failed = heavy_first(f->p, deep, err);
   Work w;
   Places s;
   if (!failed && !(failed = work_open(&w, f->p, f->o, deep, n, err))) {
@@ -593,7 +581,7 @@ int clump_levels(const Parts *p, const long *list, long n, const double *phi,
   for (int l = 0; l < CLUMP_LEVELS && bound >= 0; l++) {
     mass[l] = NAN;
     if ((l < CLUMP_THERMAL || p->u) && (l < CLUMP_ENTHALPY || (p->p && p->rho)))
-      bound = count_bound(p, list, n, own, l, &mass[l], err);
+      bound = bound_count(p, list, n, own, l, &mass[l], err);
   }
   free(own);
   return bound < 0 ? -1 : 0;

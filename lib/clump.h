@@ -8,7 +8,9 @@
  * body of its own. grow: 004 fig. 2.29 in batch form: from the deepest free particle, members are
  * all free particles bound to the point mass of the current members, e_j = v^2/2 - G M/r, until
  * nothing changes; a body and its moons are one. Neither depends on the order of particles or on
- * the frame of reference. */
+ * the frame of reference. Rows of point masses (pointmass_rows) are members as particles are, and
+ * hold bodies of any size: alone (potential: what they bind joins; grow: they are the first seeds).
+ * With them a loose particle joins the body about which its orbit is the smallest. */
 #ifndef CLUMP_H
 #define CLUMP_H
 

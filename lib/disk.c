@@ -6,6 +6,7 @@
 #include <string.h>
 #include "disk.h"
 #include "group.h"
+#include "pointmass.h"
 #include "potential.h"
 #include "sort.h"
 #include "unit.h"
@@ -181,19 +182,21 @@ static Sum inside(Work *w, const DiskBody *b, int keep, int *changed)
   return all;
 }
 
-/* Centre, mass and mean density (of mass, which vapour hardly moves) of all. */
+/* Centre, mass and mean density (of mass, which vapour hardly moves) of all; a point mass without a
+ * size has no part in the latter. */
 static void start(DiskBody *b, const Parts *p, const long *list, long n)
 {
-  double dense = 0;
+  double dense = 0, wide = 0;
   memset(b, 0, sizeof *b);
   for (long k = 0; k < n; k++) {
     const long i = list[k];
     for (int a = 0; a < 3; a++)
       b->x[a] += p->m[i] * p->x[3 * i + a], b->v[a] += p->m[i] * p->v[3 * i + a];
-    b->mass += p->m[i], dense += p->m[i] * p->rho[i];
+    b->mass += p->m[i];
+    if (p->rho[i] < INFINITY) dense += p->m[i] * p->rho[i], wide += p->m[i];
   }
   for (int a = 0; a < 3; a++) b->x[a] /= b->mass, b->v[a] /= b->mass;
-  b->radius = cbrt(3 * b->mass * b->mass / (4 * PI * dense));
+  b->radius = wide > 0 ? cbrt(3 * wide * wide / (4 * PI * dense)) : 0;
 }
 
 static int canup(Work *w, DiskBody *b, Err *err)
@@ -210,6 +213,12 @@ static int canup(Work *w, DiskBody *b, Err *err)
   return err_set(err, "the body's equator does not come to rest");
 }
 
+/* Whether a particle is surface. */
+static int is_light(const Work *w, long i)
+{
+  return w->p->rho[i] < w->o->floor[w->p->mat[i]] && !pointmass_row(w->p, i);
+}
+
 /* The deepest particles until enough of them are light: their centre, and the mean distance of the
  * light ones from it. */
 static int surface(Work *w, DiskBody *b, Err *err)
@@ -224,7 +233,7 @@ static int surface(Work *w, DiskBody *b, Err *err)
   memset(b, 0, sizeof *b);
   for (; end < w->n && !failed && (double)light <= SURFACE * (double)w->n; end++) {
     const long i = w->list[order[end]];
-    light += p->rho[i] < w->o->floor[p->mat[i]];
+    light += is_light(w, i);
     for (int a = 0; a < 3; a++)
       b->x[a] += p->m[i] * p->x[3 * i + a], b->v[a] += p->m[i] * p->v[3 * i + a];
     mass += p->m[i];
@@ -236,7 +245,7 @@ static int surface(Work *w, DiskBody *b, Err *err)
   b->mass = mass;
   for (long k = 0; k < end && !failed; k++) {
     const long i = w->list[order[k]];
-    if (p->rho[i] < w->o->floor[p->mat[i]]) sum += group_apart(p->x + 3 * i, b->x);
+    if (is_light(w, i)) sum += group_apart(p->x + 3 * i, b->x);
   }
   b->radius = light ? sum / (double)light : 0;
   free(phi), free(order);

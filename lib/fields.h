@@ -78,7 +78,9 @@
   P(double,  taken,     , 1, "AccretedMass",    "kg",       "mass that it has taken") \
   P(int64_t, count,     , 1, "AccretedNumber",  "1",        "particles that it has taken") \
   P(int32_t, fixed,     , 1, "Fixed",           "1",        "1: it stays where it is") \
-  P(int32_t, deaf,      , 1, "FeelsNoParticles", "1",       "1: only other point masses pull on it")
+  P(int32_t, deaf,      , 1, "FeelsNoParticles", "1",       "1: only other point masses pull on it") \
+  P(int32_t, clump,     , 1, "ClumpID",         "1",        "bound body that it belongs to (clumps); 0: none") \
+  P(int32_t, disk,      , 1, "DiskClass",       "1",        "what it is to the body of disk, as of a particle; 0: unknown")
 /* clang-format on */
 
 typedef struct {

@@ -2,12 +2,14 @@
 /* Fragments: neighbours from the tree, joined as they are found by a lock-free union-find in which
  * the smaller index is always the root, so that the forest's roots do not depend on the threads
  * (Jayanti & Tarjan 2016, arXiv:1612.01514, with linking by index). */
+#include <math.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include "fof.h"
 #include "group.h"
 #include "ngb.h"
+#include "pointmass.h"
 
 /* The kept particles in Hilbert order. */
 typedef struct {
@@ -59,7 +61,7 @@ static int set_fill(Set *s, const Parts *p, const unsigned char *keep, Err *err)
   long *order = malloc((size_t)(p->n + 1) * sizeof *order), *row = s->row;
   int failed = !id || !order ? err_set(err, "out of memory for %ld particles", p->n) : 0;
   for (long i = 0; i < p->n && !failed; i++) {
-    if (keep && !keep[i]) continue;
+    if ((keep && !keep[i]) || pointmass_row(p, i)) continue;
     memcpy(s->x + 3 * s->n, p->x + 3 * i, 3 * sizeof *s->x);
     id[s->n] = p->id[i], row[s->n++] = i;
   }
@@ -90,6 +92,18 @@ static int set_link(Set *s, double link, Err *err)
   return failed ? -1 : 0;
 }
 
+/* The fragment that a point mass is in: of the particle nearest to it that it is a friend of. */
+static int32_t fragment_of(const Parts *p, long i, double link, const int32_t *id)
+{
+  double least = INFINITY;
+  int32_t found = 0;
+  for (long j = 0; j < p->n - p->point_rows; j++) {
+    const double r = id[j] ? group_apart(p->x + 3 * i, p->x + 3 * j) : (double)INFINITY;
+    if (r < 0.5 * link * (p->h[i] + p->h[j]) && r < least) least = r, found = id[j];
+  }
+  return found;
+}
+
 long fof_find(const Parts *p, double link, const unsigned char *keep, long least, int32_t *id,
               Err *err)
 {
@@ -102,6 +116,8 @@ long fof_find(const Parts *p, double link, const unsigned char *keep, long least
       id[s.row[k]] = root == k ? (int32_t)++found : id[s.row[root]];
     }
     found = group_rank(p, id, found, least, err);
+    for (long i = p->n - p->point_rows; i < p->n && found > 0; i++)
+      if (!keep || keep[i]) id[i] = fragment_of(p, i, link, id);
   }
   set_free(&s);
   return found;

@@ -9,6 +9,7 @@
 #include <gsl/gsl_eigen.h>
 #include <hdf5.h>
 #include "group.h"
+#include "pointmass.h"
 #include "potential.h"
 #include "sort.h"
 #include "unit.h"
@@ -43,6 +44,7 @@ typedef struct {
   int64_t first; /* lowest particle id */
   double mass;   /* kg */
   long n, old;
+  int kept; /* however small: holds a point mass */
 } Rank;
 
 static int by_mass(const void *a, const void *b)
@@ -90,11 +92,11 @@ long group_rank(const Parts *p, int32_t *id, long groups, long least, Err *err)
     long i = order[o], k = id[i];
     if (k == 0) continue;
     if (rank[k].n++ == 0) rank[k].first = p->id[i], rank[k].old = k;
-    rank[k].mass += p->m[i];
+    rank[k].mass += p->m[i], rank[k].kept |= pointmass_row(p, i);
   }
   qsort(rank, (size_t)groups + 1, sizeof *rank, by_mass);
   for (long k = 0; k <= groups; k++)
-    if (rank[k].n >= least && rank[k].n > 0) name[rank[k].old] = (int32_t)++found;
+    if ((rank[k].n >= least || rank[k].kept) && rank[k].n > 0) name[rank[k].old] = (int32_t)++found;
   for (long i = 0; i < p->n; i++) id[i] = name[id[i]];
   free(order), free(rank), free(name);
   return found;
@@ -168,6 +170,7 @@ static void centre(Group *g, const Parts *p, const long *list)
     for (int a = 0; a < 3; a++)
       g->x[a] += p->m[i] * p->x[3 * i + a], g->v[a] += p->m[i] * p->v[3 * i + a];
     g->mass += p->m[i];
+    if (pointmass_row(p, i)) g->points++, g->pointed += p->m[i];
   }
   for (int a = 0; a < 3; a++) g->x[a] /= g->mass, g->v[a] /= g->mass;
 }
@@ -188,22 +191,24 @@ static const double *phases(const Parts *p)
 static void heat(Group *g, const Parts *p, const long *list)
 {
   const double *phase = phases(p);
-  double sum = 0, most = 0;
+  double sum = 0, most = 0, mass = g->mass - g->pointed;
   for (long k = 0; k < g->n; k++) {
     const long i = list[k];
+    if (pointmass_row(p, i)) continue;
     if (p->T) sum += p->m[i] * p->T[i], most = fmax(most, p->T[i]);
     if (phase && phase[i] >= 0 && phase[i] < GROUP_PHASES) g->phase[(int)phase[i]] += p->m[i];
   }
-  g->T_mean = p->T ? sum / g->mass : NAN, g->T_max = p->T ? most : NAN;
+  g->T_mean = p->T ? sum / mass : NAN, g->T_max = p->T ? most : NAN;
 }
 
 static void contents(Group *g, const Parts *p, const long *list)
 {
   int bodies = g->bodies;
-  double damage = 0, damaged = 0, peak = 0;
+  double damage = 0, damaged = 0, peak = 0, mass = g->mass - g->pointed;
   for (long k = 0; k < g->n; k++) {
     long i = list[k];
     g->volume += p->m[i] / p->rho[i], g->e_th += p->m[i] * p->u[i];
+    if (pointmass_row(p, i)) continue;
     g->rho_mean += p->m[i] * p->rho[i], g->rho_max = fmax(g->rho_max, p->rho[i]);
     if (p->pmax) peak += p->m[i] * p->pmax[i], g->peak_max = fmax(g->peak_max, p->pmax[i]);
     g->part[p->mat[i] * bodies + p->body[i]] += p->m[i];
@@ -212,10 +217,10 @@ static void contents(Group *g, const Parts *p, const long *list)
   for (int c = 0; c < p->materials; c++)
     for (int b = 0; b < bodies && group_is_water(p->material[c].name); b++)
       g->water += g->part[c * bodies + b];
-  g->water /= g->mass, g->rho = g->mass / g->volume, g->rho_mean /= g->mass;
-  g->peak_mean = p->pmax ? peak / g->mass : NAN, g->peak_max = p->pmax ? g->peak_max : NAN;
+  g->water /= g->mass, g->rho = g->mass / g->volume, g->rho_mean /= mass;
+  g->peak_mean = p->pmax ? peak / mass : NAN, g->peak_max = p->pmax ? g->peak_max : NAN;
   g->radius = cbrt(3 * g->volume / (4 * PI));
-  g->damage = p->damage ? damage / g->mass : NAN, g->damaged = p->damage ? damaged / g->mass : NAN;
+  g->damage = p->damage ? damage / mass : NAN, g->damaged = p->damage ? damaged / mass : NAN;
 }
 
 static void moments(Group *g, const Parts *p, const long *list)
@@ -452,6 +457,7 @@ void group_header(FILE *f, const Parts *p, int bodies)
   for (int b = 0; b < bodies; b++) fprintf(f, "\tfrom_%d [kg]", b);
   for (int c = 0; c < p->materials; c++)
     for (int b = 0; b < bodies; b++) fprintf(f, "\t%s_from_%d [kg]", p->material[c].name, b);
+  if (p->point_rows) fputs("\tpoint_masses [kg]", f);
 }
 
 void group_row(FILE *f, const Group *g, const Group *s, const Parts *p)
@@ -472,4 +478,5 @@ void group_row(FILE *f, const Group *g, const Group *s, const Parts *p)
     fprintf(f, "\t%.9g", sum);
   }
   for (int k = 0; k < p->materials * bodies; k++) fprintf(f, "\t%.9g", g->part[k]);
+  if (p->point_rows) cell(f, g->pointed);
 }

@@ -13,7 +13,8 @@
 enum { GROUP_BODIES = 1024, GROUP_PHASES = 8 };
 
 typedef struct {
-  long n;
+  long n, points;                        /* rows; how many of these are point masses */
+  double pointed;                        /* and what they weigh, kg */
   double mass, x[3], v[3];               /* kg; centre of mass m, m/s */
   double volume, rho, rho_mean, rho_max; /* sum m/rho m^3; mass/volume, mean over mass, largest
                                             kg/m^3 */
@@ -63,8 +64,8 @@ int group_named(const Parts *p, const char *text, const char *file, const int32_
 int group_order(const Parts *p, long *order, Err *err);
 
 /* group_rank: renumbers the groups id [p->n] = 1..groups (0: none) by descending mass, equal masses
- * by their lowest particle id; those with fewer than `least` particles become 0. Returns how many
- * are left, or -1. */
+ * by their lowest particle id; those with fewer than `least` particles and no point mass become 0.
+ * Returns how many are left, or -1. */
 long group_rank(const Parts *p, int32_t *id, long groups, long least, Err *err);
 
 /* group_heavy: drops those lighter than mass [kg] of groups ranked as group_rank does (id becomes

@@ -57,6 +57,7 @@ typedef struct {
   int runs;
   PointMass *point; /* [points] point masses */
   int points;
+  long point_rows;  /* how many of the n rows, the last ones, stand for them (pointmass_rows) */
   PartExtra *extra; /* [extras] unknown fields, carried through */
   int extras;
 } Parts;

@@ -8,6 +8,8 @@
 #include "hdf.h"
 #include "pointmass.h"
 
+#define PI 3.14159265358979323846
+
 enum { MOST = 1 << 20 }; /* point masses in a file */
 
 typedef struct {
@@ -160,4 +162,50 @@ int pointmass_check(const PointMass *p, int n, int dimension, Err *err)
                        k + 1, dimension);
   }
   return 0;
+}
+
+/* All arrays longer by `more` zeroed rows. */
+static int longer(Parts *p, size_t more, Err *err)
+{
+  const size_t n = (size_t)p->n;
+  for (int k = 0; k < part_field_count; k++) {
+    const PartField *f = &part_fields[k];
+    const size_t size = (size_t)f->size;
+    char *now = part_array(p, f), *grown = now ? realloc(now, (n + more) * size) : NULL;
+    if (!now) continue;
+    if (!grown) return err_set(err, "out of memory for %ld particles", p->n);
+    memset(grown + n * size, 0, more * size);
+    part_set_array(p, f, grown);
+  }
+  return 0;
+}
+
+int pointmass_rows(Parts *p, Err *err)
+{
+  int64_t id = 0;
+  if (longer(p, (size_t)p->points, err)) return -1;
+  for (long i = 0; i < p->n; i++) id = p->id[i] >= id ? p->id[i] + 1 : id;
+  for (int k = 0; k < p->points; k++) {
+    const PointMass *q = &p->point[k];
+    const long i = p->n + k;
+    memcpy(p->x + 3 * i, q->x, sizeof q->x), memcpy(p->v + 3 * i, q->v, sizeof q->v);
+    p->id[i] = id + k, p->m[i] = q->m, p->h[i] = q->h;
+    if (p->rho)
+      p->rho[i] = q->radius > 0 ? q->m / (4. / 3 * PI * pow(q->radius, 3)) : (double)INFINITY;
+    if (p->clump) p->clump[i] = q->clump;
+    if (p->disk) p->disk[i] = q->disk;
+  }
+  p->n += p->points, p->point_rows = p->points;
+  return 0;
+}
+
+Parts pointmass_without(const Parts *p)
+{
+  Parts q = *p;
+  q.n -= p->point_rows, q.point_rows = 0;
+  for (long k = 0; k < p->point_rows; k++) {
+    if (p->clump) q.point[k].clump = p->clump[q.n + k];
+    if (p->disk) q.point[k].disk = p->disk[q.n + k];
+  }
+  return q;
 }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The gravitational potential that some of a set of particles make at any of them: by direct sums
  * for few, by the tree for many. Who makes it may change from sum to sum, the particles stay: the
- * tree is built once. */
+ * tree is built once. Rows of point masses pull as in the solver, softened within their own h
+ * alone, and are no part of the tree. */
 #ifndef POTENTIAL_H
 #define POTENTIAL_H
 
@@ -9,7 +10,8 @@
 #include "tree.h"
 
 typedef struct {
-  long n, *order;          /* particle k of the sums is order[k] of the list */
+  long n, *order; /* particle k of the sums is order[k] of the list; behind these [points] */
+  long points;    /* rows of point masses in the list */
   double *x, *m, *h, *phi; /* [n][3] m; kg, J/kg, in that order; m: as they act now */
   const Parts *p;
   const long *list;

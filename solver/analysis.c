@@ -6,6 +6,7 @@
 #include <string.h>
 #include "../lib/clump.h"
 #include "../lib/group.h"
+#include "../lib/pointmass.h"
 #include "analysis.h"
 
 static const char HEADER[] =
@@ -20,13 +21,15 @@ static void masses(AnalysisRow *row, const Parts *p, const long *start, const lo
 {
   for (long c = 1; c <= row->bodies; c++) {
     double sum = 0;
-    for (long k = start[c]; k < start[c + 1]; k++) sum += p->m[list[k]];
+    long points = 0;
+    for (long k = start[c]; k < start[c + 1]; k++)
+      sum += p->m[list[k]], points += pointmass_row(p, list[k]);
     row->bound += sum;
-    if (c <= ANALYSIS_TOP) row->mass[c - 1] = sum, row->n[c - 1] = start[c + 1] - start[c];
+    if (c <= ANALYSIS_TOP) row->mass[c - 1] = sum, row->n[c - 1] = start[c + 1] - start[c] - points;
   }
 }
 
-int analysis_measure(AnalysisRow *row, const Param *par, const Parts *p, Err *err)
+static int measure(AnalysisRow *row, const Param *par, const Parts *p, Err *err)
 {
   const ClumpOptions o = {par->analysis_method, (ClumpLevel)par->analysis_criterion,
                           par->analysis_link, par->analysis_theta, par->analysis_least};
@@ -48,6 +51,27 @@ int analysis_measure(AnalysisRow *row, const Param *par, const Parts *p, Err *er
     if (!failed) masses(row, p, start, list), free(start), free(list);
   }
   free(id), free(phi);
+  return failed;
+}
+
+/* A copy of the particles with a row for each point mass. */
+static Parts *with_points(const Parts *p, Err *err)
+{
+  unsigned char *all = malloc((size_t)p->n + 1);
+  if (!all) return err_null(err, "not enough memory for bound.tsv");
+  memset(all, 1, (size_t)p->n + 1);
+  Parts *q = part_select(p, all, err);
+  free(all);
+  if (q && pointmass_rows(q, err)) part_free(q), q = NULL;
+  return q;
+}
+
+int analysis_measure(AnalysisRow *row, const Param *par, const Parts *parts, Err *err)
+{
+  Parts *with = NULL;
+  if (parts->points && par->analysis_points && !(with = with_points(parts, err))) return -1;
+  const int failed = measure(row, par, with ? with : parts, err);
+  part_free(with);
   return failed;
 }
 

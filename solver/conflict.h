@@ -118,6 +118,8 @@ static inline int conflict_mirrors(const Param *p)
   U("damping.radial", !(p->damping > 0), "damping.rate") \
   U("analysis.method", !(p->analysis_every > 0), "analysis.every") \
   U("analysis.criterion", !(p->analysis_every > 0), "analysis.every") \
+  U("analysis.points", !(p->analysis_every > 0), "analysis.every") \
+  U("analysis.points", !s->points.n, "there are no point masses") \
   U("analysis.min_particles", !(p->analysis_every > 0), "analysis.every") \
   U("analysis.link", !(p->analysis_every > 0), "analysis.every") \
   U("analysis.link", p->analysis_method != 0, "analysis.method") \

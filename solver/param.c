@@ -211,6 +211,7 @@ static const CfgRow analysis[] = {
    "simulated time between lines of bound.tsv, the bound bodies that clumps finds; 0: none"},
   {"method", CFG_CHOICE, AT(analysis_method), "potential|grow", "potential", ANY, "as clumps --method"},
   {"criterion", CFG_CHOICE, AT(analysis_criterion), "kinetic|thermal|enthalpy", "kinetic", ANY, "as clumps --criterion"},
+  {"points", CFG_BOOL, AT(analysis_points), NULL, "true", ANY, "point masses hold bodies, too, and count in all masses"},
   {"min_particles", CFG_INT, AT(analysis_least), NULL, "20", 2, 1e9, "smallest body"},
   {"link", CFG_REAL, AT(analysis_link), "1", "1", 1e-6, 100, "potential: friends when r_ij < link (h_i + h_j)/2"},
   {"theta", CFG_REAL, AT(analysis_theta), "1", "0.7", 0, 1, "opening angle of the analysis' own gravity tree"},

@@ -55,7 +55,7 @@ typedef struct {
   double checkpoint_every;
   double analysis_every, analysis_link, analysis_theta, analysis_virial, analysis_converged,
       analysis_after;
-  int analysis_method, analysis_criterion, analysis_least, analysis_window;
+  int analysis_method, analysis_criterion, analysis_points, analysis_least, analysis_window;
   int sink_bound, sink_every, escape_from, escape_unbound, escape_every;
   double escape_distance;
   PointMass point[PARAM_POINTS]; /* [points] */

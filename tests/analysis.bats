@@ -94,6 +94,23 @@ rows() { grep -v '^#' "$1/bound.tsv"; }
   [ "$(rows v | cut -f 4,6-9 | sort -u)" = $'0\tnan\tnan\tnan\tnan' ]
 }
 
+@test "point masses hold bodies, in bound.tsv, clumps and disk" {
+  echo 'point_masses = ( { mass = "1e22kg"; position = ("2000km", 0, 0); radius = "100km"; } );' >run.cfg
+  start=(-c run.cfg --end +10s --every 10s -s analysis.every=10 -s analysis.min_particles=5)
+  solver -o p "${start[@]}" s.h5
+  solver -o q "${start[@]}" -s analysis.points=false s.h5
+  clumps --min-particles 5 -o ids.h5 p/snap_0001.h5 >with
+  clumps --min-particles 5 --no-points p/snap_0001.h5 >bare
+  [ "$(rows p | tail -1 | cut -f 7,10)" = "$(grep -v '^#' with | head -1 | awk -F'\t' '{ print $3 "\t" $2 }')" ]
+  [ "$(rows q | tail -1 | cut -f 7,10)" = "$(grep -v '^#' bare | head -1 | awk -F'\t' '{ print $3 "\t" $2 }')" ]
+  true_that 'b < 1e20 && a >= 1e22 && near(held, 1e22, 1e-9)' a="$(rows p | tail -1 | cut -f 7)" b="$(rows q | tail -1 | cut -f 7)" \
+    held="$(grep -v '^#' with | head -1 | awk -F'\t' '{ print $NF }')"
+  h5dump -d /PointMasses/ClumpID ids.h5 | grep -q '(0): 1'
+  disk --of clump:1 --method canup -o disk.h5 ids.h5 >d
+  true_that 'near(M, 1e22, 1e-9) && near(R, 1e5, 1e-6)' M="$(awk '/^# body: mass/ { print $4 }' d)" R="$(awk '/^# body: mass/ { print $7 }' d)"
+  h5dump -d /PointMasses/DiskClass disk.h5 | grep -q '(0): 1'
+}
+
 @test "settings without effect are refused" {
   bad 1 "analysis.link = 0.5 has no effect: analysis.every = 0" solver -o x --end +1s -s analysis.link=0.5 s.h5
   bad 1 "analysis.window = 3 has no effect: analysis.converged = 0" solver -o x --end +1s -s analysis.every=1 -s analysis.window=3 s.h5

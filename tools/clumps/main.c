@@ -8,6 +8,7 @@
 #include "lib/clump.h"
 #include "lib/group.h"
 #include "lib/opt.h"
+#include "lib/pointmass.h"
 #include "lib/snap.h"
 #include "lib/unit.h"
 
@@ -15,6 +16,7 @@ static struct {
   const char *method, *level, *campaign, *out;
   double link, theta, mass, virial;
   long least;
+  int bare;
 } arg = {.virial = INFINITY};
 
 static const Opt opts[] = {
@@ -29,6 +31,7 @@ static const Opt opts[] = {
     {"link", 'l', OPT_REAL, "1", "1", "potential: friends when r_ij < link (h_i + h_j)/2",
      &arg.link},
     {"theta", 't', OPT_REAL, "0.7", "1", "opening angle of the gravity tree", &arg.theta},
+    {"no-points", 0, OPT_FLAG, NULL, NULL, "as if the snapshot had no point masses", &arg.bare},
     {"campaign", 'C', OPT_TEXT, NULL, "FILE",
      "write one row: remnants, accretion, stripping, v_inf, deflection", &arg.campaign},
     {"output", 'o', OPT_TEXT, NULL, "FILE", "write the snapshot with ClumpID", &arg.out},
@@ -46,7 +49,8 @@ static const OptProgram program = {
              "binds it most (two-body energy negative; 0: none), "
              "aggregate numbers the sets of bodies that are connected by "
              "such pairs. Each bound pair is listed above the table. "
-             "k_vir = -2 E_kin/E_pot, 1 in equilibrium. --campaign: body 0 is the target, "
+             "k_vir = -2 E_kin/E_pot, 1 in equilibrium. Point masses are members: each holds a "
+             "body, alone if need be (n counts particles). --campaign: body 0 is the target, "
              "body 1 the impactor; xi = (M_LR - M_target)/M_impactor, "
              "stripped_B is the part of body B that is not in the "
              "remnant that holds most of it.",
@@ -146,7 +150,7 @@ static void print(const Parts *p, const char *file, const Body *b, long n, long 
   for (long k = 0; k < n; k++) {
     const Group *g = &b[k].g;
     const GroupPair *o = &b[k].pair;
-    printf("%ld\t%ld\t%.9g\t%.9g\t%.9g", k + 1, g->n, g->mass, group_apart(g->x, s->x),
+    printf("%ld\t%ld\t%.9g\t%.9g\t%.9g", k + 1, g->n - g->points, g->mass, group_apart(g->x, s->x),
            group_apart(g->v, s->v));
     for (int l = 0; l < CLUMP_LEVELS; l++) printf("\t%.9g", b[k].bound[l]);
     printf("\t%ld\t%ld", b[k].aggregate, b[k].parent);
@@ -185,6 +189,7 @@ int main(int argc, char **argv)
   Parts *p = snap_read_some(file, arg.out ? NULL : GROUP_FIELDS GROUP_MORE " p", &err);
   if (!p || part_need(p, GROUP_FIELDS, file, &err) || part_check(p, file, &err))
     err_die("%s", err.text);
+  if (!arg.bare && pointmass_rows(p, &err)) err_die("'%s': %s", file, err.text);
   ClumpOptions o = {!strcmp(arg.method, "grow"), level(), arg.link, arg.theta, arg.least};
   if (o.level == CLUMP_ENTHALPY && part_need(p, "p", file, &err)) err_die("%s", err.text);
   Group system;
@@ -205,8 +210,9 @@ int main(int argc, char **argv)
                        &err))
       err_die("%s", err.text);
   }
-  if (arg.out && (part_history(p, command, &err) || snap_write(p, arg.out, 0, &err)))
-    err_die("%s", err.text);
+  if (arg.out && part_history(p, command, &err)) err_die("%s", err.text);
+  const Parts whole = pointmass_without(p);
+  if (arg.out && snap_write(&whole, arg.out, 0, &err)) err_die("%s", err.text);
   print(p, file, b, n, aggregates, &system);
   err_close_stdout();
   for (long k = 0; k < n; k++) group_free(&b[k].g);

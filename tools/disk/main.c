@@ -9,6 +9,7 @@
 #include "lib/group.h"
 #include "lib/material.h"
 #include "lib/opt.h"
+#include "lib/pointmass.h"
 #include "lib/snap.h"
 #include "lib/unit.h"
 #include "bins.h"
@@ -18,7 +19,7 @@ static struct {
   OptList density;
   double link, theta;
   long least, bins;
-  int enclosed;
+  int enclosed, bare;
 } arg;
 
 static const Opt opts[] = {
@@ -32,6 +33,7 @@ static const Opt opts[] = {
      &arg.density},
     {"enclosed", 'e', OPT_FLAG, NULL, NULL, "orbits feel all mass nearer to the centre",
      &arg.enclosed},
+    {"no-points", 0, OPT_FLAG, NULL, NULL, "as if the snapshot had no point masses", &arg.bare},
     {"satellites", 'n', OPT_INT, "20", "N", "smallest satellite, in particles", &arg.least},
     {"link", 'l', OPT_REAL, "1", "1", "satellites: friends when r_ij < link (h_i + h_j)/2",
      &arg.link},
@@ -52,6 +54,7 @@ static const OptProgram program = {
         "they are 1 % when those of the group are taken from its deepest potential on. canup: "
         "what is nearer than the equator or circularises there is body; the equator follows from "
         "mass, mean density and spin. Satellites are fragments of the disk above --min-density. "
+        "Point masses count as particles do; of a group if clumps says so. "
         "Columns are relative to the body; L_body is about its centre. a_eq = h^2/(G M) is the "
         "radius of the circle with a particle's angular momentum.",
     .example = "disk --method canup --profile bins.tsv with_ids.h5",
@@ -76,7 +79,8 @@ static long *object(const Parts *p, const char *file, long *n, Err *err)
   if (group_order(p, list, err)) return free(list), NULL;
   *n = 0;
   for (long k = 0; k < p->n; k++)
-    if (!id || id[list[k]] == which) list[(*n)++] = list[k];
+    if (!id || (id[list[k]] == which && (id == p->clump || !pointmass_row(p, list[k]))))
+      list[(*n)++] = list[k];
   return list;
 }
 
@@ -87,7 +91,8 @@ static double rest_density(const Parts *p, Err *err)
   if (!material) return -1;
   double mass = 0, volume = 0;
   for (long i = 0; i < p->n; i++) {
-    const double rho0 = p->disk[i] == DISK_DISK ? eos_rho0(&material[p->mat[i]].eos) : 0;
+    const double rho0 =
+        p->disk[i] == DISK_DISK && !pointmass_row(p, i) ? eos_rho0(&material[p->mat[i]].eos) : 0;
     if (rho0 > 0) mass += p->m[i], volume += p->m[i] / rho0;
   }
   material_free(material, p->materials);
@@ -149,7 +154,7 @@ static void print_row(const char *name, const Group *g, const Parts *p, const Di
     l[a] = g->l[a] + g->mass * ((g->x[d] - b->x[d]) * (g->v[e] - b->v[e]) -
                                 (g->x[e] - b->x[e]) * (g->v[d] - b->v[d]));
   }
-  printf("%s\t%ld\t%.9g\t%.9g\t%.9g\t%.9g", name, g->n, g->mass, l[0], l[1], l[2]);
+  printf("%s\t%ld\t%.9g\t%.9g\t%.9g\t%.9g", name, g->n - g->points, g->mass, l[0], l[1], l[2]);
   group_orbit_row(stdout, g, &c), group_row(stdout, g, frame, p);
   printf("\n");
 }
@@ -213,6 +218,7 @@ int main(int argc, char **argv)
   Parts *p = snap_read_some(file, arg.out ? NULL : groups, &err);
   if (!p || part_need(p, GROUP_FIELDS, file, &err) || part_check(p, file, &err))
     err_die("%s", err.text);
+  if (!arg.bare && pointmass_rows(p, &err)) err_die("'%s': %s", file, err.text);
   if (!arg.density.n) arg.density = (OptList){standard, 1};
   long n = 0, *list = object(p, file, &n, &err);
   if (!list) err_die("--of: %s", err.text);
@@ -225,8 +231,9 @@ int main(int argc, char **argv)
     err_die("'%s': %s", file, err.text);
   char *command = opt_command_line(argc, argv);
   if (arg.profile && bins_write(arg.profile, p, &b, t.l, arg.bins, &err)) err_die("%s", err.text);
-  if (arg.out && (part_history(p, command, &err) || snap_write(p, arg.out, 0, &err)))
-    err_die("%s", err.text);
+  if (arg.out && part_history(p, command, &err)) err_die("%s", err.text);
+  const Parts whole = pointmass_without(p);
+  if (arg.out && snap_write(&whole, arg.out, 0, &err)) err_die("%s", err.text);
   print_head(p, file, &b, &t);
   if (print(p, &b, floor, &err)) err_die("'%s': %s", file, err.text);
   err_close_stdout();
