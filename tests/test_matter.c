@@ -151,6 +151,24 @@ static void johnson_cook(void **state)
   one_free(o);
 }
 
+/* Stages within a step limit the stress and book nothing: no plastic strain, no heat. */
+static void stages(void **state)
+{
+  static const char *const T[] = {
+      ROCK("\"von_mises\"; Y = 1e6;"), ROCK("\"viscous_regolith\"; cohesion = 1e6; friction = 0.;"),
+      "name = \"x\"; eos = { form = \"murnaghan\"; rho0 = 2700.; K = 3e10; n = 1.; heat_capacity = "
+      "1e3; }; strength = { shear_modulus = 2e10; form = \"johnson_cook\"; A = 1e6; };"};
+  (void)state;
+  for (int k = 0; k < 3; k++) {
+    One *o = one_new(T[k], 2700, 0);
+    o->s.s[1] = 1e8, o->s.g[1] = 1e4, o->s.dqdt[0] = 1e6, o->k.dt = 1;
+    pass_local(&o->s, &o->k, 0);
+    assert_true(root_j2(o) > 0 && root_j2(o) < 1.1e6);
+    assert_true(o->s.strain[0] == 0 && o->s.T[0] == 298);
+    one_free(o);
+  }
+}
+
 /* No tension beyond the envelope's end; vapour bears no shear, elastic matter neither. */
 static void tension_and_vapour(void **state)
 {
@@ -303,7 +321,7 @@ static void cracks(void **state)
   }
 }
 
-/* The rate that rk2 takes: active c_g/h until the limit is reached, of solids with flaws only; a
+/* The rate that other integrators take: active c_g/h below the limit, of solids with flaws only; a
  * particle's flaws begin where it says. */
 static void crack_rate(void **state)
 {
@@ -317,9 +335,8 @@ static void crack_rate(void **state)
   assert_int_equal(o->s.nact[0], 2);
   near(o->s.dcrack[0], 2 * .4 * sqrt(modulus / 2700) / .5, 1e-12);
   assert_true(o->s.damage[0] == 0);
-  o->s.damage[0] = .5, passes_damage(&o->s, 0, 0);
-  assert_true(o->s.dcrack[0] == 0);
-  o->s.damage[0] = 0;
+  assert_true(passes_crack_rate(&o->s, 0, 0) == o->s.dcrack[0]);
+  assert_true(passes_crack_rate(&o->s, 0, cbrt(.5)) == 0);
   for (int none = 0; none < 4; none++) { /* no stress, flaws, shear modulus, law */
     One keep = *o;
     o->s.dcrack[0] = 1;
@@ -331,8 +348,10 @@ static void crack_rate(void **state)
     assert_true(o->s.dcrack[0] == 0 && o->s.damage[0] == 0);
     o->m = keep.m, o->s.s[0] = 2.5e-4 * material_young(&o->m);
   }
-  o->s.damage[0] = 1;
-  assert_true(passes_strain(&o->s, 0) == 0); /* nothing is left to strain */
+  o->s.damage[0] = 1; /* nothing is left to strain, but the limit in tension */
+  assert_true(passes_strain(&o->s, 0) == 0);
+  o->s.p[0] = -1e6;
+  near(passes_strain(&o->s, 0), 2.5e-4 + 1e6 / material_young(&o->m), 1e-12);
   one_free(o);
 }
 
@@ -571,7 +590,8 @@ int main(void)
       cmocka_unit_test(crushed),      cmocka_unit_test(soft),
       cmocka_unit_test(regolith),     cmocka_unit_test(viscous),
       cmocka_unit_test(weak_pores),   cmocka_unit_test(rate),
-      cmocka_unit_test(compacted),    cmocka_unit_test(moduli),
-      cmocka_unit_test(crack_rate),   cmocka_unit_test(soft_strains)};
+      cmocka_unit_test(compacted),    cmocka_unit_test(stages),
+      cmocka_unit_test(moduli),       cmocka_unit_test(crack_rate),
+      cmocka_unit_test(soft_strains)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
