@@ -10,6 +10,7 @@ int points_open(Sim *sim, const Parts *p, Err *err)
   PointMasses *q = &sim->points;
   const Param *par = &sim->par;
   const PointMass *from = p->points ? p->point : par->point;
+  double plane;
   q->n = p->points ? p->points : par->points;
   if (q->n > POINTS)
     return err_set(err, "the input has %d point masses, a run takes %d", q->n, POINTS);
@@ -18,6 +19,11 @@ int points_open(Sim *sim, const Parts *p, Err *err)
     return err_set(err, "escape.from = point: there is no point mass");
   if (par->disk_point > 1 && par->disk_point > q->n)
     return err_set(err, "disk.point = %d: there are %d point masses", par->disk_point, q->n);
+  for (int k = 0; k < q->n; k++)
+    for (int d = 0; d < 3; d++)
+      if (bounds_beyond(&sim->bounds, d, q->p[k].x[d], &plane))
+        return err_set(err, "point mass %d is at %c = %g m, behind the mirror at %g", k + 1,
+                       "xyz"[d], q -> p[k].x[d], plane);
   return pointmass_check(q->p, q->n, p->dimension, err);
 }
 
@@ -55,11 +61,26 @@ static void pass_one(PointMasses *q, int pass, const Step *k, int i, int d)
   }
 }
 
+/* As fold_particle: a mass that has passed a mirror changes places with its image. */
+static void fold_one(const Bounds *b, PointMass *p, int d)
+{
+  double plane;
+  p->x[d] = bounds_wrap(b, d, p->x[d]);
+  if (!bounds_beyond(b, d, p->x[d], &plane)) return;
+  p->x[d] = plane - (p->x[d] - plane);
+  p->v[d] = -p->v[d], p->a[d] = -p->a[d], p->old_x[d] = -p->old_x[d], p->old_v[d] = -p->old_v[d];
+  for (int e = 1; e < 3; e++) p->spin[(d + e) % 3] = -p->spin[(d + e) % 3];
+}
+
 void points_pass(Sim *sim, int pass, const Step *k)
 {
   PointMasses *q = &sim->points;
   for (int i = 0; i < q->n; i++)
-    for (int d = 0; d < 3 && !q->p[i].fixed; d++) pass_one(q, pass, k, i, d);
+    for (int d = 0; d < 3 && !q->p[i].fixed; d++)
+      if (pass == PASS_FOLD)
+        fold_one(&sim->bounds, &q->p[i], d);
+      else
+        pass_one(q, pass, k, i, d);
   if (q->n && sim->par.disk_point)
     memcpy(sim->s.centre, q->p[sim->par.disk_point - 1].x, sizeof sim->s.centre);
 }

@@ -48,21 +48,33 @@ static Param settings(const char *integrator, const char *more)
   return par;
 }
 
-/* One step and what leaves after it; the number. */
-static long go(Sim *sim, Parts *p, Archive *a)
+static void step(Sim *sim)
+{
+  Err err;
+  SimStep done;
+  if (sim_advance(sim, 1e9, &done, &err)) fail_msg("%s", err.text);
+}
+
+/* What leaves after a step; the number. */
+static long look(Sim *sim, Parts *p, Archive *a)
 {
   const long n = sim->s.n;
   Err err;
-  SimStep done;
   LeaveFound found;
   Parts *gone[ARCHIVES];
-  if (sim_advance(sim, 1e9, &done, &err) || leave_find(sim, &found, &err)) fail_msg("%s", err.text);
+  if (leave_find(sim, &found, &err)) fail_msg("%s", err.text);
   if (!found.where) return 0;
   if (leave_take(sim, &found, p, &gone[0], &gone[1], &err)) fail_msg("%s", err.text);
   for (int k = 0; k < ARCHIVES; k++)
     if (archive_add(a, k, gone[k], &err)) fail_msg("%s", err.text);
   assert_true(found.leaving == n - sim->s.n && p->n == sim->s.n);
   return n - sim->s.n;
+}
+
+static long go(Sim *sim, Parts *p, Archive *a)
+{
+  step(sim);
+  return look(sim, p, a);
 }
 
 /* Mass, momentum, angular momentum, energy: of what is there and what has gone. */
@@ -121,6 +133,83 @@ static void books_are_closed(void **state)
       archive_free(&a);
       part_free(p);
     }
+}
+
+/* The particles in the pieces of an archive. */
+static double kept(const Archive *a, int which)
+{
+  double n = 0;
+  for (int k = 0; k < a->list[which].pieces; k++) n += (double)a->list[which].piece[k]->n;
+  return n;
+}
+
+/* Every integrator in an open, a periodic and a mirrored box: what leaves takes nothing with it but
+ * what is booked, the steps between keep momentum where no mirror takes it up, nobody is lost. */
+static void faces_and_integrators(void **state)
+{
+  static const char *const boxes[] = {
+      "gravity.method=none", "boundary.x=periodic boundary.low=-1.1,-1.1,0 boundary.high=1.1,9,0",
+      "boundary.x=mirror boundary.y=mirror_low boundary.low=-1.1,-1.1,0 boundary.high=1.1,9,0"};
+#define INTEGRATOR(WORD, NAME) "integrator=" WORD,
+  static const char *const all[] = {INTEGRATORS(INTEGRATOR)};
+  (void)state;
+  for (size_t k = 0; k < 3 * sizeof all / sizeof *all; k++) {
+    Parts *p = cloud(.5);
+    Param par = settings(all[k / 3], boxes[k % 3]);
+    Archive a = {0};
+    Sim sim;
+    double first[8], before[8], after[8], scale[8];
+    const double n = (double)p->n;
+    lab_set(&par, "gravity.method=none escape.distance=2.5 escape.every=3 step.max=0.05");
+    lab_open(&sim, &par, p);
+    totals(&sim, first, scale);
+    for (int s = 0; s < 12; s++) {
+      totals(&sim, before, scale), step(&sim), totals(&sim, after, scale);
+      for (int d = 1; d < 4 && k % 3 < 2; d++)
+        assert_true(fabs(after[d] - before[d]) < 1e-13 * scale[d]);
+      look(&sim, p, &a), totals(&sim, before, scale);
+      for (int d = 0; d < 8; d++) assert_true(fabs(after[d] - before[d]) < 1e-13 * scale[d]);
+    }
+    print_message("%s, %s: %g escaped, %g accreted\n", all[k / 3], boxes[k % 3], sim.gone.escaped,
+                  sim.gone.accreted);
+    assert_true(fabs(after[0] - first[0]) < 1e-14 * first[0]);
+    assert_true(sim.gone.escaped >= 2 && sim.gone.accreted > 10);
+    assert_true(n == (double)sim.s.n + sim.gone.escaped + sim.gone.accreted);
+    assert_true(kept(&a, ARCHIVE_ESCAPED) == sim.gone.escaped &&
+                kept(&a, ARCHIVE_ACCRETED) == sim.gone.accreted);
+    lab_store(&sim, p);
+    for (long i = 0; i < p->n && k % 3; i++) assert_true(fabs(p->x[3 * i]) <= 1.1);
+    sim_close(&sim), archive_free(&a), part_free(p);
+  }
+}
+
+/* A sink that crosses a face comes back at the other one, or turns round, as its image does. */
+static void sink_at_a_face(void **state)
+{
+  static const char *const boxes[] = {"boundary.x=periodic", "boundary.x=mirror"};
+  (void)state;
+  for (int mirror = 0; mirror < 2; mirror++) {
+    Parts *p = lab_parts(1, 3, GAS);
+    Param par = settings("integrator=leapfrog", "gravity.method=none boundary.low=-1,0,0");
+    Sim sim;
+    Err err;
+    lab_set(&par, "gravity.G=1e-30 boundary.high=1,0,0"), lab_set(&par, boxes[mirror]);
+    p->m[0] = p->rho[0] = p->u[0] = 1, p->h[0] = .3;
+    p->point = calloc(1, sizeof *p->point), p->points = 1;
+    p->point[0] = (PointMass){.m = 3, .x = {.5}, .v = {.7, .2}, .spin = {1, 2, 3}};
+    lab_open(&sim, &par, p), lab_run(&sim, 1), lab_store(&sim, p);
+    const PointMass *q = p->point;
+    assert_true(fabs(q->x[0] - (mirror ? .8 : -.8)) < 1e-12 && fabs(q->x[1] - .2) < 1e-12);
+    assert_true(q->v[0] == (mirror ? -.7 : .7) && q->spin[0] == 1);
+    assert_true(q->spin[1] == (mirror ? -2 : 2) && q->spin[2] == (mirror ? -3 : 3));
+    sim_close(&sim);
+    p->point[0].x[0] = 1.5;
+    if (mirror) {
+      assert_int_equal(sim_open(&sim, &par, p, lab_device(), &err), -1);
+      assert_string_equal(err.text, "point mass 1 is at x = 1.5 m, behind the mirror at 1");
+    }
+    part_free(p);
+  }
 }
 
 /* One that takes leave of three: what is booked is its own energy, kinetic, internal and in the
@@ -218,7 +307,10 @@ static void restart(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(books_are_closed),
-                                     cmocka_unit_test(energy_of_one), cmocka_unit_test(rules),
+                                     cmocka_unit_test(faces_and_integrators),
+                                     cmocka_unit_test(sink_at_a_face),
+                                     cmocka_unit_test(energy_of_one),
+                                     cmocka_unit_test(rules),
                                      cmocka_unit_test(restart)};
   omp_set_num_threads(1);
   return cmocka_run_group_tests(tests, NULL, NULL);

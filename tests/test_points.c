@@ -104,9 +104,9 @@ static Three three_run(Three b, double t, int steps)
   const double kick[4] = {theta, 1 - 2 * theta, theta, 0};
   double a[3][3];
   for (int n = 0; n < 4 * steps; n++) {
-    for (int i = 0; i < 9; i++) b.x[0][i] += drift[n % 4] * dt * b.v[0][i];
+    for (int i = 0; i < 9; i++) b.x[i / 3][i % 3] += drift[n % 4] * dt * b.v[i / 3][i % 3];
     three_pull(&b, a);
-    for (int i = 0; i < 9; i++) b.v[0][i] += kick[n % 4] * dt * a[0][i];
+    for (int i = 0; i < 9; i++) b.v[i / 3][i % 3] += kick[n % 4] * dt * a[i / 3][i % 3];
   }
   return b;
 }
