@@ -10,6 +10,8 @@ SET =
 
 # ------------------------------------------------------------------------------------------------------------------------------
 
+# Two particles: a second thread only waits.
+export OMP_NUM_THREADS = 1
 here := $(dir $(lastword $(MAKEFILE_LIST)))
 include $(here)lab.mk
 pictures = $(OUT)/kepler.png

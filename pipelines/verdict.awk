@@ -5,8 +5,10 @@
 #   fact(what, ours, reference, source): a number to look at, not judged.
 
 function title(text) { print "# " text; print "# quantity\tours\tlow\thigh\tverdict\treference\tsource" }
-function claim(what, ours, low, high, reference, source) {
-  printf "%s\t%.6g\t%.6g\t%.6g\t%s\t%s\t%s\n", what, ours, low, high, (ours >= low && ours <= high ? "ok" : "FAILED"), reference, source
+# What is not a number holds nothing, whatever an awk's comparisons make of it.
+function claim(what, ours, low, high, reference, source,   holds) {
+  holds = sprintf("%g", ours) !~ /nan/ && ours >= low && ours <= high
+  printf "%s\t%.6g\t%.6g\t%.6g\t%s\t%s\t%s\n", what, ours, low, high, (holds ? "ok" : "FAILED"), reference, source
 }
 function fact(what, ours, reference, source) { printf "%s\t%.6g\t\t\tn/a\t%s\t%s\n", what, ours, reference, source }
 function abs(x) { return x < 0 ? -x : x }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Faces of the computational box: periodic and mirror. Particles near a face have images behind it,
+/* Faces of the computational box: periodic, mirror, no-slip. Particles near a face have images behind it,
  * which the search lists like particles and the pair loops read as their owner's record at another
  * place; nothing else knows of them. At most one image through each face, so the box must be
  * wider than what interacts. */
@@ -9,7 +9,7 @@
 #include <stdint.h>
 #include "../physics/hd.h"
 
-enum { BOUNDS_OPEN, BOUNDS_PERIODIC, BOUNDS_MIRROR };
+enum { BOUNDS_OPEN, BOUNDS_PERIODIC, BOUNDS_MIRROR, BOUNDS_NO_SLIP };
 enum { BOUNDS_SELF, BOUNDS_LOW, BOUNDS_HIGH }; /* through which face an image is seen */
 enum { BOUNDS_CODES = 27 };
 
@@ -84,12 +84,19 @@ HD int bounds_face(uint32_t code, int d)
   return (int)(d == 0 ? code % 3 : d == 1 ? code / 3 % 3 : code / 9);
 }
 
-/* bounds_sign: -1 where axis d is mirrored, else 1. */
-HD double bounds_sign(const Bounds *b, uint32_t code, int d)
+/* bounds_kind: what the face is through which an image of this code is seen along axis d. */
+HD int bounds_kind(const Bounds *b, uint32_t code, int d)
 {
   const int face = bounds_face(code, d);
-  const int kind = face == BOUNDS_SELF ? BOUNDS_OPEN : face == BOUNDS_LOW ? b->low[d] : b->high[d];
-  return kind == BOUNDS_MIRROR ? -1 : 1;
+  return face == BOUNDS_SELF ? BOUNDS_OPEN : face == BOUNDS_LOW ? b->low[d] : b->high[d];
+}
+
+/* bounds_turn: w times what a face across axis d does to vectors: a mirror turns the component
+ * across it around, a no-slip face all of them, so that velocities go through zero there. */
+HD void bounds_turn(int kind, int d, double w[3])
+{
+  for (int k = 0; k < 3; k++)
+    if (kind == BOUNDS_NO_SLIP || (kind == BOUNDS_MIRROR && k == d)) w[k] = -w[k];
 }
 
 /* bounds_place: where the image is of what is at x. */
@@ -100,7 +107,7 @@ HD void bounds_place(const Bounds *b, uint32_t code, const double x[3], double o
     const double plane = face == BOUNDS_LOW ? b->lo[d] : b->hi[d], width = b->hi[d] - b->lo[d];
     if (face == BOUNDS_SELF)
       out[d] = x[d];
-    else if (bounds_sign(b, code, d) < 0)
+    else if (bounds_kind(b, code, d) != BOUNDS_PERIODIC)
       out[d] = plane - (x[d] - plane);
     else
       out[d] = face == BOUNDS_LOW ? x[d] + width : x[d] - width;
@@ -116,12 +123,13 @@ HD double bounds_wrap(const Bounds *b, int d, double x)
   return x < b->hi[d] ? x : b->lo[d];
 }
 
-/* bounds_beyond: whether x lies behind a mirror, and then where that is. */
+/* bounds_beyond: the kind of the mirror or no-slip face that x lies behind, and where that is; or
+ * 0. */
 HD int bounds_beyond(const Bounds *b, int d, double x, double *plane)
 {
-  *plane = x < b->lo[d] ? b->lo[d] : b->hi[d];
-  return (b->low[d] == BOUNDS_MIRROR && x < b->lo[d]) ||
-         (b->high[d] == BOUNDS_MIRROR && x > b->hi[d]);
+  const int low = x < b->lo[d], kind = low ? b->low[d] : x > b->hi[d] ? b->high[d] : BOUNDS_OPEN;
+  *plane = low ? b->lo[d] : b->hi[d];
+  return kind == BOUNDS_PERIODIC ? BOUNDS_OPEN : kind;
 }
 
 #endif

@@ -7,7 +7,7 @@
 
 #include "sim.h"
 
-/* conflict_mirrors: whether a face is a mirror. */
+/* conflict_mirrors: whether a face is a mirror or a no-slip wall. */
 static inline int conflict_mirrors(const Param *p)
 {
   int any = 0;
@@ -46,14 +46,14 @@ static inline int conflict_mirrors(const Param *p)
   C("guard.momentum", "walls or a layer", p->guard_momentum > 0 && s->hold.on, "they give and take momentum") \
   C("guard.angular_momentum", "walls or a layer", p->guard_angular > 0 && s->hold.on, "they exert torques") \
   C("guard.angular_momentum", "faces of boundary", p->guard_angular > 0 && s->bounds.on, "they exert torques") \
-  C("guard.momentum", "a mirror of boundary", p->guard_momentum > 0 && conflict_mirrors(p), "it takes momentum up") \
+  C("guard.momentum", "a mirror or wall of boundary", p->guard_momentum > 0 && conflict_mirrors(p), "it takes momentum up") \
   CONFLICT_AXES(C)
 
 /* The same for each axis. */
 #define CONFLICT_AXES(C) CONFLICT_AXIS(C, "x", 0) CONFLICT_AXIS(C, "y", 1) CONFLICT_AXIS(C, "z", 2)
 #define CONFLICT_AXIS(C, X, D) \
   C("boundary." X, "boundary.high", \
-    (p->faces[D] == PARAM_PERIODIC || p->faces[D] == PARAM_MIRROR) && !(p->high[D] > p->low[D]), \
+    (p->faces[D] == PARAM_PERIODIC || p->faces[D] == PARAM_MIRROR || p->faces[D] == PARAM_NO_SLIP) && !(p->high[D] > p->low[D]), \
     "the upper face must be above the lower one") \
   C("boundary." X, "a run of fewer dimensions", p->faces[D] != PARAM_OPEN && D >= s->s.dimension, \
     "nothing moves along that axis") \

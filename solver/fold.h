@@ -5,36 +5,42 @@
 
 #include "state.h"
 
-/* fold_tensor: six numbers of a tensor, seen in a mirror across axis d. */
-HD void fold_tensor(double *t, int d)
+/* fold_vector: three components, times w. */
+HD void fold_vector(double *v, const double w[3])
 {
-  if (d != 2) t[1] = -t[1];
-  if (d != 1) t[2] = -t[2];
-  if (d != 0) t[4] = -t[4];
+  for (int d = 0; d < 3; d++) v[d] *= w[d];
 }
 
-/* fold_mirror: what particle i carries into the next step, behind a mirror across axis d. */
-HD void fold_mirror(const State *s, long i, int d)
+/* fold_tensor: six numbers of a tensor, times w w. */
+HD void fold_tensor(double *t, const double w[3])
 {
-  const long j = 3 * i + d;
-  s->v[j] = -s->v[j], s->vp[j] = -s->vp[j], s->a[j] = -s->a[j];
-  if (s->pull) s->pull[j] = -s->pull[j];
-  if (s->wander) s->wander[j] = -s->wander[j];
-  if (s->s) fold_tensor(&s->s[6 * i], d);
-  if (s->old_x) s->old_x[j] = -s->old_x[j], s->old_v[j] = -s->old_v[j];
-  if (s->old_s) fold_tensor(&s->old_s[6 * i], d);
+  t[1] *= w[0] * w[1], t[2] *= w[0] * w[2], t[4] *= w[1] * w[2];
+}
+
+/* fold_turn: what particle i carries into the next step, behind a face that does w to vectors. */
+HD void fold_turn(const State *s, long i, const double w[3])
+{
+  const long j = 3 * i;
+  fold_vector(&s->v[j], w), fold_vector(&s->vp[j], w), fold_vector(&s->a[j], w);
+  if (s->pull) fold_vector(&s->pull[j], w);
+  if (s->wander) fold_vector(&s->wander[j], w);
+  if (s->s) fold_tensor(&s->s[6 * i], w);
+  if (s->old_x) fold_vector(&s->old_x[j], w), fold_vector(&s->old_v[j], w);
+  if (s->old_s) fold_tensor(&s->old_s[6 * i], w);
 }
 
 /* fold_particle: through a periodic face it comes back at the other one; where it has passed a
- * mirror it changes places with its image. */
+ * mirror or a no-slip face it changes places with its image. */
 HD void fold_particle(const State *s, long i)
 {
   for (int d = 0; d < s->dimension; d++) {
-    double *x = &s->x[3 * i + d], plane;
+    double *x = &s->x[3 * i + d], plane, w[3] = {1, 1, 1};
     *x = bounds_wrap(&s->bounds, d, *x);
-    if (!bounds_beyond(&s->bounds, d, *x, &plane)) continue;
+    const int kind = bounds_beyond(&s->bounds, d, *x, &plane);
+    if (!kind) continue;
     *x = plane - (*x - plane);
-    fold_mirror(s, i, d);
+    bounds_turn(kind, d, w);
+    fold_turn(s, i, w);
   }
 }
 

@@ -15,8 +15,9 @@ HD long image_owner(const State *s, long i)
 /* image_signs: what the components of a vector of the owner are to be multiplied by at row i. */
 HD void image_signs(const State *s, long i, double sign[3])
 {
-  for (int d = 0; d < 3; d++)
-    sign[d] = i < s->n ? 1 : bounds_sign(&s->bounds, s->image[i - s->n].code, d);
+  for (int d = 0; d < 3; d++) sign[d] = 1;
+  for (int d = 0; d < 3 && i >= s->n; d++)
+    bounds_turn(bounds_kind(&s->bounds, s->image[i - s->n].code, d), d, sign);
 }
 
 /* image_fill: row i >= n from its owner. */

@@ -171,9 +171,9 @@ static const CfgRow damping[] = {
   {"rate", CFG_REAL, AT(damping), "1/s", "0", 0, 1e300, "dv/dt = -rate (v - v_frame), in the co-rotating frame of each body"},
   {"radial", CFG_BOOL, AT(damping_radial), NULL, "false", ANY, "damp the radial component only"},
 };
-#define FACES "open|periodic|mirror|mirror_low|mirror_high"
+#define FACES "open|periodic|mirror|mirror_low|mirror_high|no_slip|no_slip_low|no_slip_high"
 static const CfgRow boundary[] = {
-  {"x", CFG_CHOICE, AT(faces[0]), FACES, "open", ANY, "faces across x: none, periodic, mirrors at both or at one"},
+  {"x", CFG_CHOICE, AT(faces[0]), FACES, "open", ANY, "faces across x: none, periodic, mirrors or no-slip walls at both or at one"},
   {"y", CFG_CHOICE, AT(faces[1]), FACES, "open", ANY, "the same across y"},
   {"z", CFG_CHOICE, AT(faces[2]), FACES, "open", ANY, "the same across z"},
   {"low", CFG_VECTOR, AT(low), "m", "0,0,0", ANY, "where the lower faces are"},

@@ -85,12 +85,20 @@ static void smoothing_range(Sim *sim, const Parts *p)
 /* The faces of the box. */
 static void set_bounds(Sim *sim, const Param *p)
 {
+  static const struct {
+    int low, high;
+  } KIND[] = {[PARAM_OPEN] = {BOUNDS_OPEN, BOUNDS_OPEN},
+              [PARAM_PERIODIC] = {BOUNDS_PERIODIC, BOUNDS_PERIODIC},
+              [PARAM_MIRROR] = {BOUNDS_MIRROR, BOUNDS_MIRROR},
+              [PARAM_MIRROR_LOW] = {BOUNDS_MIRROR, BOUNDS_OPEN},
+              [PARAM_MIRROR_HIGH] = {BOUNDS_OPEN, BOUNDS_MIRROR},
+              [PARAM_NO_SLIP] = {BOUNDS_NO_SLIP, BOUNDS_NO_SLIP},
+              [PARAM_NO_SLIP_LOW] = {BOUNDS_NO_SLIP, BOUNDS_OPEN},
+              [PARAM_NO_SLIP_HIGH] = {BOUNDS_OPEN, BOUNDS_NO_SLIP}};
   Bounds *b = &sim->bounds;
   for (int d = 0; d < 3; d++) {
     const int faces = p->faces[d];
-    const int both = faces == PARAM_PERIODIC ? BOUNDS_PERIODIC : BOUNDS_OPEN;
-    b->low[d] = faces == PARAM_MIRROR || faces == PARAM_MIRROR_LOW ? BOUNDS_MIRROR : both;
-    b->high[d] = faces == PARAM_MIRROR || faces == PARAM_MIRROR_HIGH ? BOUNDS_MIRROR : both;
+    b->low[d] = KIND[faces].low, b->high[d] = KIND[faces].high;
     b->lo[d] = p->low[d], b->hi[d] = p->high[d];
     b->on |= faces != PARAM_OPEN;
   }
@@ -192,14 +200,14 @@ static void hold(Sim *sim)
   if (sim->hold.walls) sim->b->pass(sim, PASS_HOLD, &k);
 }
 
-/* Nothing can be behind a mirror. */
+/* Nothing can be behind a mirror or a wall. */
 static int inside(const Bounds *b, const Parts *p, Err *err)
 {
   double plane;
   for (long i = 0; i < p->n && b->on; i++)
     for (int d = 0; d < 3; d++)
       if (bounds_beyond(b, d, p->x[3 * i + d], &plane))
-        return err_set(err, "particle %lld is at %c = %g m, behind the mirror at %g",
+        return err_set(err, "particle %lld is at %c = %g m, behind the face at %g",
                        (long long)p->id[i], "xyz"[d], p -> x[3 * i + d], plane);
   return 0;
 }

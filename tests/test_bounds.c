@@ -263,6 +263,37 @@ static void mirrored(void **state)
   }
 }
 
+/* A shear flow over a no-slip wall feels nothing, as its images go on with it: one evaluation. With
+ * a mirror there is a force. What passes the wall is sent back the way it came. */
+static void no_slip(void **state)
+{
+  static const char *const faces[] = {"boundary.y=no_slip_low", "boundary.y=mirror_low"};
+  double most[2] = {0, 0};
+  (void)state;
+  for (int k = 0; k < 2; k++) {
+    Parts *p = block(10, 12, 1, .1, GAS);
+    Param par = lab_param("gravity.method=none", "boundary.x=periodic", "boundary.high=1,0,0",
+                          faces[k], "viscosity.kinematic=0.1", "viscosity.alpha=0",
+                          "viscosity.beta=0", "precision=double", NULL);
+    Sim sim;
+    for (long i = 0; i < p->n; i++) p->v[3 * i] = .3 * p->x[3 * i + 1];
+    lab_open(&sim, &par, p), lab_store(&sim, p), sim_close(&sim);
+    for (long i = 0; i < p->n; i++)
+      for (int d = 0; d < 2 && p->x[3 * i + 1] < .5; d++)
+        most[k] = fmax(most[k], fabs(p->a[3 * i + d]));
+    part_free(p);
+    Parts *one = block(1, 1, 1, .1, GAS);
+    one->dimension = 2, one->u[0] = 1e-20, one->x[1] = .05, one->v[0] = .2, one->v[1] = -1;
+    par.faces[0] = PARAM_OPEN, par.shear = 0;
+    lab_open(&sim, &par, one), lab_run(&sim, .1), lab_store(&sim, one), sim_close(&sim);
+    assert_true(fabs(one->x[1] - .05) < 1e-12 && fabs(one->v[1] - 1) < 1e-9);
+    assert_true(fabs(one->v[0] - (k ? .2 : -.2)) < 1e-9);
+    part_free(one);
+  }
+  print_message("shear flow: %.1e at a wall, %.1e at a mirror\n", most[0], most[1]);
+  assert_true(most[0] < 1e-12 && most[1] > .1);
+}
+
 /* Particles come to a face, where none were before: more images than there was room for. */
 static void crowd(void **state)
 {
@@ -286,7 +317,7 @@ static void refused(void **state)
   static const struct {
     const char *set[2], *what;
   } wrong[] = {{{"boundary.high=0.3,0,0", "boundary.low=0,0,0"}, "is 0.3 m wide in x"},
-               {{"boundary.x=mirror", "boundary.low=0.3,0,0"}, "behind the mirror at 0.3"},
+               {{"boundary.x=mirror", "boundary.low=0.3,0,0"}, "behind the face at 0.3"},
                {{"boundary.low=2,0,0", "boundary.x=periodic"}, "must be above"},
                {{"boundary.y=mirror_low", "boundary.low=0,-1,0"}, "fewer dimensions"},
                {{"gravity.method=tree", "gravity.G=1"}, "images do not pull"}};
@@ -306,10 +337,10 @@ static void refused(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(uniform),  cmocka_unit_test(wave),
-                                     cmocka_unit_test(momentum), cmocka_unit_test(mirror),
-                                     cmocka_unit_test(repeated), cmocka_unit_test(mirrored),
-                                     cmocka_unit_test(crowd),    cmocka_unit_test(refused)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(uniform), cmocka_unit_test(wave),     cmocka_unit_test(momentum),
+      cmocka_unit_test(mirror),  cmocka_unit_test(repeated), cmocka_unit_test(mirrored),
+      cmocka_unit_test(no_slip), cmocka_unit_test(crowd),    cmocka_unit_test(refused)};
   omp_set_num_threads(1);
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -217,7 +217,7 @@ static const Case conflicts[] = {
     {"guard.energy=0.1", "damping.rate=1", "damping.rate=0",
      "guard.energy = 0.1 cannot go with damping.rate = 1: energy is taken away"},
     {"guard.momentum=0.1", "boundary.x=mirror_low gravity.method=none", "boundary.x=open",
-     "guard.momentum = 0.1 cannot go with a mirror of boundary: it takes momentum up"},
+     "guard.momentum = 0.1 cannot go with a mirror or wall of boundary: it takes momentum up"},
     {"guard.angular_momentum=0.1", "gravity.method=none", "gravity.method=none",
      "guard.angular_momentum = 0.1 cannot go with walls or a layer: they exert torques"},
     {"boundary.x=periodic", "gravity.method=none", "boundary.high=1,1,1 gravity.method=none",

@@ -59,6 +59,7 @@ static void same(void **state)
     Err err;
     lab_set(&par, more);
     par.precision = PARAM_DOUBLE;
+    if (k == 2) par.faces[2] = PARAM_NO_SLIP_LOW;
     if (k == 0) par.faces[2] = PARAM_OPEN, par.layer_high[2] = 4 * 2.2 / SIDE;
     assert_return_code(param_set(&par, "step.max=0.02", &err), 0);
     Parts *a = run(&par, "cpu"), *b = run(&par, "cuda"), *c = run(&par, "cuda");
