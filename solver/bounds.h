@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Faces of the computational box: periodic, mirror, no-slip. Particles near a face have images
  * behind it, which the search lists like particles and the pair loops read as their owner's record
- * at another place; nothing else knows of them. At most one image through each face, so the box must
- * be wider than what interacts. */
+ * at another place; nothing else knows of them. At most one image through each face, so the box
+ * must be wider than what interacts. */
 #ifndef BOUNDS_H
 #define BOUNDS_H
 
