@@ -103,6 +103,11 @@ static void thin_disk(void **state)
   (void)state;
   assert_true(fabs(t.xy - 4 * nu * .3) < 1e-15 && t.xx == 0 && t.zz == 0);
   assert_true(fabs(cl - 2.5 - 8 * nu / .5) < 1e-14);
+  /* rho (zeta + f h^2 |div v|) div v under compression, from all sides */
+  const double squeeze[9] = {-.1, 0, 0, 0, -.2, 0, 0, 0, 0}, zeta = .2 + .5 * .25 * .3;
+  memcpy(g, squeeze, sizeof g), f = (Fluid){.bulk = .2, .compression = .5};
+  t = fluid_stress(&s, &f, 0);
+  assert_true(fabs(t.xx + 4 * zeta * .3) < 1e-15 && t.yy == t.xx && t.zz == t.xx && t.xy == 0);
 }
 
 /* A fluid that turns rigidly feels no viscosity, at its free surface neither. */
