@@ -447,12 +447,16 @@ static void gravity(void **state)
            {"gravity.method=direct", "precision=mixed", 1e-5},
            {"gravity.method=tree", "precision=double", 1e-2},
            {"gravity.method=tree", "precision=mixed", 1e-2}};
+  static const char *const softening[] = {NULL, "gravity.epsilon=0.2",
+                                          "gravity.softening=plummer gravity.epsilon=0.2"};
   (void)state;
-  for (int c = 0; c < 4; c++) {
+  for (int k = 0; k < 12; k++) {
+    const int c = k % 4;
     Parts *p = cloud(700, 3);
     Param par = lab_param(T[c].method, T[c].precision, "gravity.G=1", NULL);
     Sim sim[2];
     Err err;
+    lab_set(&par, softening[k / 4]);
     open_both(sim, &par, p);
     for (int d = 0; d < 2; d++) {
       State *s = &sim[d].s;
