@@ -16,8 +16,8 @@ END {
   title("Nylon into basalt at 3.2 km/s, " n " particles: largest fragment over the basalt")
   first = pairs[1]; mean = core[first]/runs[first]
   source = "Nakamura & Fujiwara (1991)"
-  if (n < 100000) claim("core, " pair_name(first) ", mean of " runs[first] " seeds", mean, 0.40, 0.62, "0.545 (14 000), 0.505 (66 000)", "other code; measured: 0.31, " source)
-  else if (n < 300000) claim("core, " pair_name(first) ", mean of " runs[first] " seeds", mean, 0.35, 0.60, "0.505 (66 000)", "other code; measured: 0.31, " source)
+  if (n < 100000) claim("core, " pair_name(first) ", mean of " runs[first] " seeds", mean, 0.40, 0.62, "0.545 (14 000), 0.505 (66 000)", "other code, whose D seems to stop short of 1 (docs/validation.md); measured: 0.31, " source)
+  else if (n < 300000) claim("core, " pair_name(first) ", mean of " runs[first] " seeds", mean, 0.35, 0.60, "0.505 (66 000)", "other code, whose D seems to stop short of 1 (docs/validation.md); measured: 0.31, " source)
   else fact("core, " pair_name(first) ", mean of " runs[first] " seeds", mean, "0.31", source "; 0.304 in Schaefer et al. (2016)")
   fact("  least of the seeds", least[first], "", ""); fact("  greatest", most[first], "", "")
   best = mean
