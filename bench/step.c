@@ -130,7 +130,7 @@ static void feel(const Sim *sim, const State *s, const PairRun *run, long i, lon
   const PairExtra *e = (const PairExtra *)s->extra;
   const PairVector d = apart(s, i, j);
   const PairForce p = sim->rich
-                          ? pair_rich(d, &me, &other, &e[i], &e[j], kernel, 0, run, &sim->more).f
+                          ? pair_rich(d, &me, &other, &e[i], &e[j], kernel, 0, 0, run, &sim->more).f
                           : pair_force(d, &me, &other, kernel, 0, sim->tensor, sim->miscible, run);
   const double r = sqrt(pair_dot(d, d)), h = .5 * (me.h + other.h), w = 1 / s->m[i];
   const double g = sim->par.G * s->m[j] * pull_over_r(&sim->par, r, h);

@@ -43,6 +43,16 @@ HD real pair_weight(int kern, int line, const PairRun *run, real r2, real h)
   return (real)run->sigma * power * kernel_w(kern, line ? 1 : 3, q);
 }
 
+/* pair_weight_rate: dW/dh [m^-(D+1)]. */
+HD real pair_weight_rate(int kern, int line, const PairRun *run, real r2, real h)
+{
+  real over, ih = real_inverse(h), q = real_root(r2, &over) * ih, power = ih * ih;
+  if (!line) power *= run->dimension == 3 ? ih * ih : ih;
+  return -(real)run->sigma * power *
+         ((real)run->dimension * kernel_w(kern, line ? 1 : 3, q) +
+          q * q * kernel_dwq(kern, line ? 1 : 3, q));
+}
+
 /* Loop A: contributions to the raw velocity gradient g_ab = sum V_j (v_j - v_i)_a dW_b [1/s] and to
  * the moment matrix M_ab = sum V_j (x_j - x_i)_a dW_b, symmetric (001 eq. 41-44 with the errata of
  * docs/theory.md 9). */

@@ -13,6 +13,7 @@ typedef struct {
   int miscible; /* the number-density form */
   int squares;  /* stresses S_i/rho_i^2 + S_j/rho_j^2; else (S_i + S_j)/(rho_i rho_j) */
   int own;      /* each particle's own pressure and stress do its work */
+  int grad;     /* pressures act through kernels of their own h (grad-h) */
   int exponent; /* n of the artificial stress, 0..15 */
   double over;  /* 1/w at the mean distance of particles */
   double g[3];  /* body force, whose hydrostatic density does not diffuse [m/s^2] */
@@ -64,9 +65,11 @@ HD PairVector pair_artificial(const PairExtra *i, const PairExtra *j, PairVector
 
 /* pair_rich: F = m_i m_j T . grad W with T = -(p + Pi) 1 + S + f^n (z_i + z_j), f = W/W at the mean
  * distance; p, S as more says, Pi times the mean share of both; heating -1/2 v_ij . F, or with
- * `own` i's part of p and S and half of the rest. */
+ * `own` i's part of p and S and half of the rest. grad (a literal; it goes with own): the pressures
+ * act as p_i grad W(h_i) + p_j grad W(h_j), which is symmetric as a sum of products of sums and
+ * differences, however the compiler contracts. */
 HD PairRich pair_rich(PairVector r, const PairBody *i, const PairBody *j, const PairExtra *a,
-                      const PairExtra *b, int kern, int line, const PairRun *run,
+                      const PairExtra *b, int kern, int line, int grad, const PairRun *run,
                       const PairMore *more)
 {
   PairRich o;
@@ -86,15 +89,24 @@ HD PairRich pair_rich(PairVector r, const PairBody *i, const PairBody *j, const 
             : run->integrated ? 1
                               : both;
   real x = kernel_w(kern, line ? 1 : 3, r1 * real_inverse(h)) * (real)more->over;
-  real p = wp * (i->p + j->p), lift = mm * pair_power(x, more->exponent);
+  real p = grad ? 0 : wp * (i->p + j->p), push = 0, fi = 0,
+       lift = mm * pair_power(x, more->exponent);
   real across = 2 * mm * w * real_inverse(sum);
+  if (grad) {
+    int near;
+    real fj = pair_slope(kern, line, run, r1, j->h, &near);
+    fi = pair_slope(kern, line, run, r1, i->h, &near);
+    push = 0.5f * wp * ((fi + fj) * (i->p + j->p) + (fi - fj) * (i->p - j->p));
+  }
   z = pair_artificial(a, b, r);
   z.x *= lift, z.y *= lift, z.z *= lift;
   t.x = ws * d.x - p * r.x, t.y = ws * d.y - p * r.y, t.z = ws * d.z - p * r.z;
-  own = more->own ? 2 * (ws * pair_shear_work(i, r, v) - wp * i->p * vr) : pair_dot(v, t);
+  own = more->own ? 2 * (ws * pair_shear_work(i, r, v) - (grad ? 0 : wp * i->p * vr))
+                  : pair_dot(v, t);
   o.f.fx = f * (t.x + z.x - pi * r.x), o.f.fy = f * (t.y + z.y - pi * r.y);
   o.f.fz = f * (t.z + z.z - pi * r.z);
-  o.f.work = 0.5f * f * (pi * vr - own - pair_dot(v, z));
+  o.f.fx -= push * r.x, o.f.fy -= push * r.y, o.f.fz -= push * r.z;
+  o.f.work = 0.5f * f * (pi * vr - own - pair_dot(v, z)) + wp * i->p * fi * vr;
   o.f.signal = inside ? pair_signal(i->signal + j->signal, vr, over_r,
                                     share * ((real)run->alpha * cs - (real)run->beta * nu))
                       : 0;

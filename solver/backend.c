@@ -49,6 +49,7 @@ int backend_idle(const Sim *sim, const char *member)
          (strcmp(member, "Tmax") == 0 && !sim->heated) ||
          (strcmp(member, "shock") == 0 && !sim->par.viscous_work) ||
          (strcmp(member, "lifted") == 0 && !(sim->par.energy_floor > -1e300)) ||
+         (strcmp(member, "omega") == 0 && !sim->par.grad_h) ||
          (strcmp(member, "theta") == 0 && !sim->par.shepard) ||
          (strcmp(member, "pull0") == 0 && !(sim->par.gravity_tolerance > 0)) ||
          (strncmp(member, "old_", 4) == 0 && !sim->memory) ||
@@ -73,6 +74,8 @@ PairRun backend_pair(const Sim *sim, int dimension)
                    .volumes = p->pressure == PARAM_PRODUCT,
                    .integrated = p->density == PARAM_MISCIBLE_CONTINUITY};
 }
+
+Grad backend_grad(const Sim *sim) { return (Grad){sim->par.eta, sim->miscible}; }
 
 void backend_look(Sim *sim, int64_t id, char *text, size_t size)
 {

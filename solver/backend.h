@@ -5,6 +5,7 @@
 #ifndef BACKEND_H
 #define BACKEND_H
 
+#include "grad.h"
 #include "param.h"
 #include "passes.h"
 #include "leave.h"
@@ -159,6 +160,12 @@ int backend_idle(const Sim *sim, const char *member);
 /* backend_range: the range of h into the state. backend_pair: what pairs share. */
 void backend_range(Sim *sim);
 PairRun backend_pair(const Sim *sim, int dimension);
+
+/* backend_grad: what form.grad_h sums with. */
+Grad backend_grad(const Sim *sim);
+
+/* grad_open: with form.grad_h brings each h of a fresh state to where density and h agree. */
+int grad_open(Sim *sim, Err *err);
 
 /* backend_look: the state of one particle as text, for error messages. */
 void backend_look(Sim *sim, int64_t id, char *text, size_t size);

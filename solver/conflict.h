@@ -28,6 +28,9 @@ static inline int conflict_mirrors(const Param *p)
     "the product goes with the density by continuity") \
   C("stress_form", "density", p->stress_form == PARAM_SQUARES && p->density == PARAM_MISCIBLE_CONTINUITY, \
     "its stress goes with the particles' own volumes") \
+  C("form.grad_h", "density", p->grad_h && !param_summed(p), "by continuity density and forces agree as it is") \
+  C("form.grad_h", "smoothing.mode", \
+    p->grad_h && p->smoothing != PARAM_DENSITY && p->smoothing != PARAM_NEIGHBOURS, "h must follow from the density") \
   C("form.shepard", "density", p->shepard && p->density != PARAM_CONTINUITY, \
     "it is for the density by continuity") \
   C("viscosity.balsara", "viscosity.switch", p->balsara && p->viscosity_switch == RICH_CULLEN_DEHNEN, \

@@ -33,7 +33,8 @@ HD void image_fill(const State *s, long i)
 /* image_reach: what particle i adds to the reach of all. */
 HD void image_reach(const State *s, long i, BoundsReach *r)
 {
-  bounds_reach(&s->bounds, &s->x[3 * i], &s->y[3 * i], s->h[i], s->ha[i], r);
+  const double wide = 1 + s->margin;
+  bounds_reach(&s->bounds, &s->x[3 * i], &s->y[3 * i], wide * s->h[i], wide * s->ha[i], r);
 }
 
 /* image_check: -1 when the box is too narrow for that reach. */

@@ -83,6 +83,8 @@ static const CfgRow form[] = {
    "velocity gradient with the tensorial correction (001 eq. 42-44), exact for linear fields, and its adjoint in the stress; or without"},
   {"shepard", CFG_BOOL, AT(shepard), NULL, "false", ANY,
    "kernels of pairs normalised against missing neighbours at surfaces: W_ij/sqrt(theta_i theta_j), theta_i = sum V_j W_ij (Shepard)"},
+  {"grad_h", CFG_BOOL, AT(grad_h), NULL, "false", ANY,
+   "h = eta (m/rho)^(1/D) solved with the summed density, and its gradient in the forces (Springel & Hernquist 2002; Price 2012)"},
   {"xsph", CFG_REAL, AT(xsph), "1", "0", 0, 1, "particles move with the mean velocity around, by this factor (001 eq. 40)"},
   {"diffusion", CFG_REAL, AT(diffusion), "1", "0", 0, 1,
    "delta of the diffusion of density of Molteni & Colagrossi (2009), h the full support: 0.05 is the 0.1 of codes with half of it"},

@@ -36,7 +36,8 @@ typedef struct {
   double alpha, beta;
   int viscosity_switch, balsara;
   double viscosity_least;
-  int stress_form, stress_exponent, gradient_raw, shepard;
+  int stress_form, stress_exponent, gradient_raw, shepard, grad_h;
+  double eta; /* of grad_h: h over (m/rho)^(1/D), made from the others */
   double xsph, diffusion, artificial, spacing;
   double shear, bulk, shakura, aspect, compression;
   double force[3];

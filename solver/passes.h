@@ -221,7 +221,7 @@ HD void pass_finish(const State *s, const Step *k, long i)
   if (s->p[i] > s->pmax[i]) s->pmax[i] = s->p[i];
   if (s->Tmax && s->T[i] > s->Tmax[i]) s->Tmax[i] = s->T[i];
   if (k->more.viscosity && k->dt == 0) s->div0[i] = s->divv[i];
-  if (k->smoothing && k->dt > 0)
+  if (k->smoothing && k->dt > 0 && !s->omega)
     s->h[i] = passes_follow(s, k, i, s->ha[i] * s->ha[i] / s->h[i], k->dt);
 }
 
@@ -260,7 +260,8 @@ HD double passes_heating(const State *s, const Step *k, long i)
 }
 
 /* save: the evolved quantities, or their rates, into saved[slot]. Damage goes by its cube root,
- * which stops growing only where the step began at its limit. */
+ * which stops growing only where the step began at its limit. The first evaluation of a step is of
+ * the state in saved[0]: with grad_h it finds h and rho anew. */
 HD void pass_save(const State *s, const Step *k, long i)
 {
   const Saved *to = &s->saved[k->slot];
@@ -278,6 +279,8 @@ HD void pass_save(const State *s, const Step *k, long i)
   if (k->rates) to->crack[i] = k->damage ? passes_crack_rate(s, i, s->saved[0].crack[i]) : 0;
   if (s->alpha) to->alpha[i] = s->alpha[i];
   if (to->active && !k->rates) to->active[i] = s->nact[i];
+  if (s->omega && k->rates && k->slot == 1)
+    s->saved[0].h[i] = s->h[i], s->saved[0].rho[i] = s->rho[i];
 }
 
 /* remember: the rates of saved[slot] are those of the step before for the next step. recall: these

@@ -20,6 +20,7 @@ HD void passes_pack(const State *s, const Step *k, long i, int solid, double dt)
   double p = s->p[i] < 0 ? (1 - s->damage[i]) * s->p[i] : s->p[i];
   if (k->hold.walls && p < 0 && !solid && hold_wall(s, &k->hold, i)) p = 0;
   s->push[i] = (p - k->outer) * size * size;
+  if (k->rich && s->omega) s->push[i] /= s->omega[i];
   for (int d = 0; d < 9 && !solid && s->t; d++) t[d] = 0;
   if (solid || k->viscous) {
     Sym c = passes_rotate(passes_stress(&s->cm[6 * i]), &s->g[9 * i], dt);

@@ -48,18 +48,30 @@ static double spacing(const Parts *p)
   return p->n ? sum / (double)p->n : 1;
 }
 
+/* h over (m/rho)^(1/D): with the wanted number of neighbours in a support; or as it is in the
+ * mean. */
+static double eta(const Param *par, const Parts *p)
+{
+  static const double ball[] = {2, 3.14159265358979323846, 4 * 3.14159265358979323846 / 3};
+  if (par->smoothing == PARAM_NEIGHBOURS)
+    return pow(par->neighbours / ball[p->dimension - 1], 1. / p->dimension);
+  return 1 / spacing(p);
+}
+
 void rich_open(Sim *sim, const Parts *p)
 {
   Param *par = &sim->par;
   PairMore *m = &sim->more;
   double w;
-  sim->rich = par->stress_form != PARAM_PRODUCT || par->viscosity_switch || par->balsara ||
-              par->artificial > 0 || par->xsph > 0 || par->diffusion > 0;
+  if (par->grad_h && par->eta == 0) par->eta = eta(par, p);
+  sim->rich = par->grad_h || par->stress_form != PARAM_PRODUCT || par->viscosity_switch ||
+              par->balsara || par->artificial > 0 || par->xsph > 0 || par->diffusion > 0;
   if (!sim->rich) return;
   if (par->spacing == 0) par->spacing = spacing(p);
   w = par->spacing < 1 ? kernel_w(par->kernel, p->dimension, par->spacing) : 0;
   m->over = w > 0 ? 1 / w : 0;
-  m->miscible = m->own = sim->miscible;
+  m->miscible = sim->miscible, m->grad = par->grad_h;
+  m->own = m->miscible || m->grad;
   m->squares = par->stress_form == PARAM_SQUARES;
   m->exponent = par->stress_exponent;
   memcpy(m->g, par->force, sizeof m->g);

@@ -45,7 +45,7 @@ Step sim_step(const Sim *sim, double dt)
   memset(&k, 0, sizeof k);
   k.dt = dt;
   k.volumes = p->pressure == PARAM_PRODUCT, k.density = p->density, k.summed = param_summed(p),
-  k.energy = p->energy, k.smoothing = p->smoothing;
+  k.energy = p->energy, k.smoothing = p->grad_h ? PARAM_DENSITY : p->smoothing;
   k.strength = sim->solid, k.damage = sim->solid && p->damage && !sim->late;
   k.neighbours = p->neighbours, k.h_min = p->h_min, k.h_max = p->h_max;
   k.density_floor = p->density_floor, k.energy_floor = p->energy_floor;
@@ -180,6 +180,7 @@ static int hand_over(Sim *sim, const Parts *p, Err *err)
   free(T), free(alpha);
   memcpy(sim->s.force, sim->par.force, sizeof sim->s.force);
   sim->s.sheet = sim->par.gradient_raw ? INFINITY : 0.01;
+  sim->s.margin = sim->par.grad_h ? GRAD_MARGIN : 0;
   sim->s.integrated = sim->par.density == PARAM_MISCIBLE_CONTINUITY;
   sim->s.floors = (Floors){sim->par.pressure_floor > -1e300, sim->par.pressure_floor,
                            sim->par.energy_floor, k.density_floor * k.self};
@@ -223,6 +224,7 @@ int sim_open(Sim *sim, const Param *par, const Parts *p, const char *device, Err
   smoothing_range(sim, p);
   if (hand_over(sim, p, err)) return sim_close(sim), -1;
   fold(sim), hold(sim);
+  if (grad_open(sim, err)) return sim_close(sim), -1;
   if (integrator_of(sim->par.integrator)->start(sim, err)) return sim_close(sim), -1;
   return 0;
 }
@@ -264,6 +266,7 @@ int sim_restart(Sim *sim, const Param *par, const Parts *p, const char *device, 
   sim->par.h_min = part_number(p, "run", "SmoothingMin"),
   sim->par.h_max = part_number(p, "run", "SmoothingMax");
   if (par->artificial > 0) sim->par.spacing = part_number(p, "run", "StressSpacing");
+  if (par->grad_h) sim->par.eta = part_number(p, "run", "SmoothingEta");
   rich_open(sim, p);
   sim->dt = part_number(p, "run", "NextStep");
   sim->step = (long)part_number(p, "run", "Step");
@@ -420,6 +423,7 @@ int sim_send(Sim *sim, Parts *p, Err *err)
     return -1;
   p->time = sim->time;
   if (sim->late && part_set_number(p, "run", "Late", 1, err)) return -1;
+  if (sim->par.grad_h && part_set_number(p, "run", "SmoothingEta", sim->par.eta, err)) return -1;
   if (sim->par.artificial > 0 && part_set_number(p, "run", "StressSpacing", sim->par.spacing, err))
     return -1;
   if (sim->par.gravity_every > 1 &&

@@ -33,6 +33,7 @@
   W(double,  pull0,  3, "gravity at the evaluation before (gravity.tolerance) [m/s^2]") \
   W(double,  cl,     1, "longitudinal wave speed [m/s]") \
   W(double,  theta,  1, "sum of V_j W_ij at loop A, itself included (form.shepard)") \
+  W(double,  omega,  1, "1 + h/(D rho) sum m_j dW_ij/dh_i (form.grad_h)") \
   W(double,  extra,  8, "PairExtra, of runs with more pair terms")
 /* clang-format on */
 
@@ -72,6 +73,7 @@ typedef struct {
   double centre[3]; /* of the disk, for laws that depend on the distance from it [m] */
   double sheet;     /* det of a moment matrix, over the cube of its mean eigenvalue, from which on
                       gradients are corrected; INFINITY: they never are */
+  double margin;    /* how far the search reaches beyond h, over h: 0, but with grad-h */
   int integrated;   /* the number density goes by its continuity equation */
 #define STATE_MEMBER(TYPE, MEMBER, ...) TYPE *MEMBER;
   ALL_FIELDS(STATE_MEMBER)

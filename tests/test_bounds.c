@@ -20,6 +20,7 @@ static const char *const forms[] = {
     "viscosity.kinematic=0.02 viscosity.bulk=0.01 viscosity.compression=0.5",
     "form.shepard=true form.xsph=0.5 stress.artificial=0.3",
     "form.gradient=raw density=sum",
+    "form.grad_h=true density=sum smoothing.max=2",
 };
 enum { FORMS = sizeof forms / sizeof *forms };
 

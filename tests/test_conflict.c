@@ -193,6 +193,11 @@ static const Case conflicts[] = {
     {"stress_form=squares", "density=miscible_continuity", "density=miscible",
      "stress_form = squares cannot go with density = miscible_continuity: its stress goes with the "
      "particles' own volumes"},
+    {"form.grad_h=true", "density=continuity", "density=sum",
+     "form.grad_h = true cannot go with density = continuity: by continuity density and forces "
+     "agree as it is"},
+    {"form.grad_h=true", "density=sum smoothing.mode=fixed", "density=sum",
+     "form.grad_h = true cannot go with smoothing.mode = fixed: h must follow from the density"},
     {"form.shepard=true", "density=sum", "density=continuity",
      "form.shepard = true cannot go with density = sum: it is for the density by continuity"},
     {"viscosity.balsara=true", "viscosity.switch=cullen_dehnen", "viscosity.switch=morris_monaghan",

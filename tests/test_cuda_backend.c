@@ -369,6 +369,12 @@ static const LoopCase loop_cases[] = {
     {"integrator=leapfrog", "form.shepard=true", "strength.on=true", "kernel=cubic_spline", 2,
      RICH},
     {"integrator=leapfrog", "form.shepard=true", "strength.on=true", "kernel=wendland_c2", 1, NULL},
+    {"integrator=leapfrog", "density=sum", "strength.on=true", "kernel=wendland_c2", 3,
+     "form.grad_h=true"},
+    {"integrator=leapfrog", "density=miscible", "strength.on=false", "kernel=cubic_spline", 2,
+     "form.grad_h=true smoothing.mode=neighbours smoothing.neighbours=26 " RICH_TOO},
+    {"integrator=leapfrog", "density=sum", "strength.on=true", "kernel=wendland_c4", 1,
+     "form.grad_h=true smoothing.mode=neighbours smoothing.neighbours=8"},
     {"integrator=leapfrog", "form.gradient=raw", "strength.on=true", "kernel=wendland_c2", 3, NULL},
     {"integrator=leapfrog", "density=sum", "strength.on=false", "kernel=cubic_spline", 3, NULL},
     {"integrator=leapfrog", "pressure_form=product", "strength.on=true", "kernel=wendland_c2", 3,
@@ -396,7 +402,8 @@ static void loops(Sim sim[2], const char *precision, const char *what)
                                                                              "acc",    "du",
                                                                              "signal", "wander",
                                                                              "sense",  "drho",
-                                                                             "theta"},
+                                                                             "theta",  "omega",
+                                                                             "h"},
                            *const rates[] = {"viscosity", "extra"};
   Err err;
   send(sim);

@@ -47,9 +47,10 @@ static void same(void **state)
       "viscosity.switch=cullen_dehnen stress.artificial=0.3",
       "viscosity.kinematic=0.02 viscosity.bulk=0.01 viscosity.compression=0.5 strength.on=false",
       "density=miscible_continuity form.xsph=0.3 viscosity.balsara=true stress.artificial=0.2",
-      "form.shepard=true form.xsph=0.5 stress_form=squares"};
+      "form.shepard=true form.xsph=0.5 stress_form=squares",
+      "form.grad_h=true density=sum smoothing.max=1.15"};
   (void)state;
-  for (int at = 0; at < 7; at++) {
+  for (int at = 0; at < 8; at++) {
     const int k = at % 3;
     const char *more = at < 3 ? "" : forms[at - 3];
     Param par = lab_param("gravity.method=none", "boundary.x=periodic", "boundary.y=mirror",

@@ -67,7 +67,7 @@ static void standard(void **state)
         const PairExtra none = {1, 1, 0, 0, 0, 0, 0, 0};
         Pair p = pair(n, dim);
         PairForce f = pair_force(p.r, &p.i, &p.j, kern, dim == 1, 1, n & 1, &run);
-        PairRich g = pair_rich(p.r, &p.i, &p.j, &none, &none, kern, dim == 1, &run, &more);
+        PairRich g = pair_rich(p.r, &p.i, &p.j, &none, &none, kern, dim == 1, 0, &run, &more);
         const double size = fabs(f.fx) + fabs(f.fy) + fabs(f.fz) + 1e-30;
         assert_true(f.near == g.f.near && fabs(f.signal - g.f.signal) <= 1e-14 * f.signal);
         worst = off(off(worst, f.fx, g.f.fx, size), f.fy, g.f.fy, size);
@@ -86,11 +86,13 @@ static void balance(void **state)
     for (int dim = 1; dim <= 3; dim++)
       for (long n = 0; n < 400; n++) {
         PairRun run = {kernel_sigma(kern, dim), .5, .7, dim, n & 1, n >> 4 & 1};
-        PairMore more = {n >> 3 & 1, n >> 1 & 1, n >> 2 & 1, (int)(n % 16), 1.7, {.1, .2, .3}};
+        const int grad = n >> 5 & 1;
+        PairMore more = {n >> 3 & 1,    n >> 1 & 1, grad | (n >> 2 & 1), grad,
+                         (int)(n % 16), 1.7,        {.1, .2, .3}};
         Pair p = pair(n, dim);
         PairVector back = {-p.r.x, -p.r.y, -p.r.z};
-        PairRich a = pair_rich(p.r, &p.i, &p.j, &p.a, &p.b, kern, dim == 1, &run, &more),
-                 b = pair_rich(back, &p.j, &p.i, &p.b, &p.a, kern, dim == 1, &run, &more);
+        PairRich a = pair_rich(p.r, &p.i, &p.j, &p.a, &p.b, kern, dim == 1, grad, &run, &more),
+                 b = pair_rich(back, &p.j, &p.i, &p.b, &p.a, kern, dim == 1, grad, &run, &more);
         const double size = fabs(a.f.fx) + fabs(a.f.fy) + fabs(a.f.fz),
                      moved = (p.i.vx - p.j.vx) * a.f.fx + (p.i.vy - p.j.vy) * a.f.fy +
                              (p.i.vz - p.j.vz) * a.f.fz;
@@ -177,7 +179,7 @@ static double loops(int dim, int kern)
       sense += (s.divv[j] < 0 ? -1 : 1) * s.m[j] / s.rho[i] *
                pair_weight(kern, dim == 1, &run, pair_dot(r, r), .5 * (s.h[i] + s.h[j]));
       if (i == j) continue;
-      PairRich o = pair_rich(r, &me, &other, &mine, &its, kern, dim == 1, &run, &sim.more);
+      PairRich o = pair_rich(r, &me, &other, &mine, &its, kern, dim == 1, 0, &run, &sim.more);
       f[0] += o.f.fx, f[1] += o.f.fy, f[2] += o.f.fz, work += o.f.work, rate += o.rate;
       w[0] += o.wx, w[1] += o.wy, w[2] += o.wz;
       size += fabs(o.f.fx) + fabs(o.f.fy) + fabs(o.f.fz);
@@ -221,6 +223,9 @@ static const Kept kept[] = {
     {"stress.artificial=0.3", WATER, 0, 1e-3},
     {"density=miscible_continuity", WATER, 0, 1e-3},
     {"density=miscible_continuity", RUBBER, 1e-4, 1e-3},
+    {"form.grad_h=true density=sum", WATER, 0, 1e-3},
+    {"form.grad_h=true density=miscible", WATER, 0, 1e-3},
+    {"form.grad_h=true density=sum", RUBBER, 1e-3, 1e-2},
     {"form.shepard=true", WATER, 0, 1e-3},
     {"form.shepard=true", RUBBER, 3e-3, 1e-3},
     {"form.gradient=raw", RUBBER, 1, 1e-3},

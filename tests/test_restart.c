@@ -111,6 +111,7 @@ static const Case cases[] = {
     {"integrator=leapfrog", "density=miscible_continuity", "gravity.method=none",
      "form.gradient=raw"},
     {"integrator=rk2-adaptive", "density=continuity", "gravity.method=none", "form.shepard=true"},
+    {"integrator=leapfrog", "density=sum", "gravity.method=tree", "form.grad_h=true"},
     {"integrator=ab2", "density=continuity", "gravity.method=none", RICH},
     {"integrator=rk2-adaptive", "density=continuity", "gravity.method=tree", "step.error=1e-3"},
     {"integrator=rk2-adaptive", "density=sum", "gravity.method=direct", "step.error=1e-4"},

@@ -184,7 +184,8 @@ static int cpu_search(Sim *sim, Err *err)
   if (!bad) reorder_all(sim);
   bad = bad || cpu_images_order(sim, err);
   reach = c->record;
-  for (long i = 0; i < s->all; i++) reach[i] = s->ha[i] > s->h[i] ? s->ha[i] : s->h[i];
+  for (long i = 0; i < s->all; i++)
+    reach[i] = (1 + s->margin) * (s->ha[i] > s->h[i] ? s->ha[i] : s->h[i]);
   bad = bad || tree_build(&c->tree, s->all, s->x, s->m, reach, err);
   backend_end(sim, TIMER_ORDER);
   if (bad) return -1;

@@ -198,7 +198,7 @@ static void keep_rich(const Sim *sim, long i, const double w[3], double sense, d
 
 static inline __attribute__((always_inline)) void rich_of(const Sim *sim, long i, const Whole *me,
                                                           const double *p, long room, long n,
-                                                          int kern, int line)
+                                                          int kern, int line, int grad)
 {
   const Cpu *c = sim->own;
   const State *s = &sim->s;
@@ -214,7 +214,7 @@ static inline __attribute__((always_inline)) void rich_of(const Sim *sim, long i
     PairBody j = {AT(3),  AT(4),  AT(5),  AT(6),  AT(7),  AT(8),  AT(9),  AT(10), AT(11), AT(12),
                   AT(13), AT(14), AT(15), AT(16), AT(17), AT(18), AT(19), AT(20), AT(21)};
     PairExtra e = {AT(22), AT(23), AT(24), AT(25), AT(26), AT(27), AT(28), AT(29)};
-    PairRich o = pair_rich(r, &self.b.b, &j, &self.e, &e, kern, line, &run, &more);
+    PairRich o = pair_rich(r, &self.b.b, &j, &self.e, &e, kern, line, grad, &run, &more);
     fx += o.f.fx, fy += o.f.fy, fz += o.f.fz, work += o.f.work, near += o.f.near;
     wx += o.wx, wy += o.wy, wz += o.wz, sense += o.sense, rate += o.rate;
     signal = o.f.signal > signal ? o.f.signal : signal;
@@ -227,7 +227,7 @@ static inline __attribute__((always_inline)) void rich_of(const Sim *sim, long i
 
 /* Loop B of runs with more pair terms over a range. */
 static inline __attribute__((always_inline)) void riches(const Sim *sim, Pack *b, long from,
-                                                         long to, int kern, int line)
+                                                         long to, int kern, int line, int grad)
 {
   const Cpu *c = sim->own;
   const Whole *record = (const Whole *)c->record;
@@ -235,7 +235,7 @@ static inline __attribute__((always_inline)) void riches(const Sim *sim, Pack *b
     long n = (long)(c->ngb.start[i + 1] - c->ngb.start[i]);
     double *p = pack_reserve(b, n, WHOLE);
     pack((const double *)record, WHOLE, c->ngb.list + c->ngb.start[i], n, p, b->room);
-    rich_of(sim, i, &record[i], p, b->room, n, kern, line);
+    rich_of(sim, i, &record[i], p, b->room, n, kern, line, grad);
   }
 }
 
@@ -261,6 +261,33 @@ static inline __attribute__((always_inline)) void densities(const Sim *sim, long
     s->rho[i] = sim->miscible ? s->m[i] * delta : rho;
     s->rhoa[i] = sqrt(before * s->rho[i]);
   }
+}
+
+/* Kernel sums of i at x with its own h, as grad_keep takes them. */
+static inline __attribute__((always_inline)) void grad_of(const Sim *sim, const Grad *g, long i,
+                                                          int newton, int kern, int line)
+{
+  const Cpu *c = sim->own;
+  const State *s = &sim->s;
+  const double h = s->h[i], *a = &s->x[3 * i];
+  double delta = pair_weight(kern, line, &c->run, 0, h), rate, mass = s->m[i] * delta;
+  rate = s->m[i] * pair_weight_rate(kern, line, &c->run, 0, h);
+  for (int64_t k = c->ngb.start[i]; k < c->ngb.start[i + 1]; k++) {
+    const long j = c->ngb.list[k];
+    const double *x = &s->x[3 * j], m = g->miscible ? s->m[i] : s->m[j];
+    const PairVector r = {a[0] - x[0], a[1] - x[1], a[2] - x[2]};
+    const double r2 = pair_dot(r, r), w = pair_weight(kern, line, &c->run, r2, h);
+    delta += w, mass += s->m[j] * w, rate += m * pair_weight_rate(kern, line, &c->run, r2, h);
+  }
+  grad_keep(s, g, i, delta, mass, rate, newton);
+}
+
+static inline __attribute__((always_inline)) void grads(const Sim *sim, long from, long to,
+                                                        int kern, int line)
+{
+  const Grad g = backend_grad(sim);
+  for (long i = from; i < to; i++)
+    for (int sum = 1; sum <= GRAD_SUMS; sum++) grad_of(sim, &g, i, sum < GRAD_SUMS, kern, line);
 }
 
 /* theta at y over a range: sum V_j W_ij, the particle itself included. */
@@ -298,8 +325,11 @@ typedef void Range(const Sim *sim, Pack *b, long from, long to);
   STAMP(force_solid_##NAME, forces(sim, b, from, to, KERNEL_##CAPITAL, 0, 1, 0)) \
   STAMP(force_fluid_miscible_##NAME, forces(sim, b, from, to, KERNEL_##CAPITAL, 0, 0, 1)) \
   STAMP(force_solid_miscible_##NAME, forces(sim, b, from, to, KERNEL_##CAPITAL, 0, 1, 1)) \
-  STAMP(rich_line_##NAME, riches(sim, b, from, to, KERNEL_##CAPITAL, 1)) \
-  STAMP(rich_space_##NAME, riches(sim, b, from, to, KERNEL_##CAPITAL, 0)) \
+  STAMP(rich_line_##NAME, riches(sim, b, from, to, KERNEL_##CAPITAL, 1, sim->more.grad)) \
+  STAMP(rich_space_##NAME, riches(sim, b, from, to, KERNEL_##CAPITAL, 0, 0)) \
+  STAMP(rich_grad_##NAME, riches(sim, b, from, to, KERNEL_##CAPITAL, 0, 1)) \
+  STAMP(grad_line_##NAME, grads(sim, from, to, KERNEL_##CAPITAL, 1)) \
+  STAMP(grad_space_##NAME, grads(sim, from, to, KERNEL_##CAPITAL, 0)) \
   STAMP(theta_line_##NAME, thetas(sim, from, to, KERNEL_##CAPITAL, 1)) \
   STAMP(theta_space_##NAME, thetas(sim, from, to, KERNEL_##CAPITAL, 0)) \
   STAMP(density_line_##NAME, densities(sim, from, to, KERNEL_##CAPITAL, 1)) \
@@ -311,12 +341,14 @@ KERNELS(STAMPS)
 #define FORCE_ROW(CAPITAL, NAME, ...) \
   {force_line_##NAME, force_fluid_##NAME, force_solid_##NAME, force_fluid_miscible_##NAME, \
    force_solid_miscible_##NAME},
-#define RICH_ROW(CAPITAL, NAME, ...) {rich_line_##NAME, rich_space_##NAME},
+#define RICH_ROW(CAPITAL, NAME, ...) {rich_line_##NAME, rich_space_##NAME, rich_grad_##NAME},
+#define GRAD_ROW(CAPITAL, NAME, ...) {grad_line_##NAME, grad_space_##NAME},
 #define THETA_ROW(CAPITAL, NAME, ...) {theta_line_##NAME, theta_space_##NAME},
 #define DENSITY_ROW(CAPITAL, NAME, ...) {density_line_##NAME, density_space_##NAME},
 static Range *const gradient_stamps[KERNEL_COUNT][3] = {KERNELS(GRADIENT_ROW)};
 static Range *const force_stamps[KERNEL_COUNT][5] = {KERNELS(FORCE_ROW)};
-static Range *const rich_stamps[KERNEL_COUNT][2] = {KERNELS(RICH_ROW)};
+static Range *const rich_stamps[KERNEL_COUNT][3] = {KERNELS(RICH_ROW)};
+static Range *const grad_stamps[KERNEL_COUNT][2] = {KERNELS(GRAD_ROW)};
 static Range *const theta_stamps[KERNEL_COUNT][2] = {KERNELS(THETA_ROW)};
 static Range *const density_stamps[KERNEL_COUNT][2] = {KERNELS(DENSITY_ROW)};
 /* clang-format on */
@@ -356,7 +388,7 @@ void cpu_force(Sim *sim)
   int which = sim->s.dimension == 1 ? 0 : 1 + !!sim->tensor + 2 * !!sim->miscible;
   backend_begin(sim, TIMER_B);
   records(sim, 1);
-  over(sim, sim->rich ? rich_stamps[sim->par.kernel][sim->s.dimension != 1]
+  over(sim, sim->rich ? rich_stamps[sim->par.kernel][sim->s.dimension == 1 ? 0 : 1 + sim->more.grad]
                       : force_stamps[sim->par.kernel][which]);
   backend_end(sim, TIMER_B);
 }
@@ -364,6 +396,6 @@ void cpu_force(Sim *sim)
 void cpu_density(Sim *sim)
 {
   backend_begin(sim, TIMER_DENSITY);
-  over(sim, density_stamps[sim->par.kernel][sim->s.dimension != 1]);
+  over(sim, (sim->s.omega ? grad_stamps : density_stamps)[sim->par.kernel][sim->s.dimension != 1]);
   backend_end(sim, TIMER_DENSITY);
 }

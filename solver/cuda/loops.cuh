@@ -39,6 +39,8 @@ typedef struct {
   int kern, miscible;   /* for the general instances; the form of the density */
   PairMore more;
   double xsph, diffusion;
+  Grad grad;
+  int newton; /* h goes on after these sums (grad.h) */
 } Loop;
 
 static __device__ long self_of(void) { return (long)blockIdx.x * blockDim.x + threadIdx.x; }
@@ -234,7 +236,7 @@ static __device__ PairExtra extra_get(const Records &r, long i)
   return e;
 }
 
-template <int kern, int line> struct Richly {
+template <int kern, int line, int grad> struct Richly {
   typedef Riches Sum;
 
   static __device__ __forceinline__ Riches sum(const Loop &a, long i, int from, int step)
@@ -249,8 +251,9 @@ template <int kern, int line> struct Richly {
       const long j = neighbour(list, k);
       const PairBody other = body_get<1>(a.r, j, &xj);
       const PairExtra its = extra_get(a.r, j);
-      const PairRich o = pair_rich(place_between(xi, xj), &self, &other, &mine, &its,
-                                   line ? a.kern : kern, line, &a.run, &a.more);
+      const PairRich o =
+          pair_rich(place_between(xi, xj), &self, &other, &mine, &its, line ? a.kern : kern, line,
+                    line ? a.more.grad : grad, &a.run, &a.more);
       const Riches one = {{o.f.fx, o.f.fy, o.f.fz, o.f.work, o.f.signal, o.f.near},
                           o.wx,
                           o.wy,
@@ -315,18 +318,22 @@ typedef struct {
 #define FORCE_ROW(CAPITAL, ...) \
   {STAMP(Force<KERNEL_##CAPITAL, 0, 0, 0>), STAMP(Force<KERNEL_##CAPITAL, 0, 1, 0>), \
    STAMP(Force<KERNEL_##CAPITAL, 0, 0, 1>), STAMP(Force<KERNEL_##CAPITAL, 0, 1, 1>)},
-#define RICH_ROW(CAPITAL, ...)    STAMP(Richly<KERNEL_##CAPITAL, 0>),
+#define RICH_ROW(CAPITAL, ...) \
+  {STAMP(Richly<KERNEL_##CAPITAL, 0, 0>), STAMP(Richly<KERNEL_##CAPITAL, 0, 1>)},
+#define GRAD_ROW(CAPITAL, ...)    STAMP(Graduals<KERNEL_##CAPITAL, 0>),
 #define DENSITY_ROW(CAPITAL, ...) STAMP(Densities<KERNEL_##CAPITAL, 0>),
 #define THETA_ROW(CAPITAL, ...)   STAMP(Thetas<KERNEL_##CAPITAL, 0>),
 static const Stamp gradient_stamps[KERNEL_COUNT][4] = {KERNELS(GRADIENT_ROW)};
 static const Stamp force_stamps[KERNEL_COUNT][4] = {KERNELS(FORCE_ROW)};
-static const Stamp rich_stamps[KERNEL_COUNT] = {KERNELS(RICH_ROW)};
+static const Stamp rich_stamps[KERNEL_COUNT][2] = {KERNELS(RICH_ROW)};
 static const Stamp density_stamps[KERNEL_COUNT] = {KERNELS(DENSITY_ROW)};
 static const Stamp theta_stamps[KERNEL_COUNT] = {KERNELS(THETA_ROW)};
 static const Stamp gradient_line = STAMP(Gradient<0, 1, 1, 1>);
 static const Stamp force_line[2] = {STAMP(Force<0, 1, 1, 0>), STAMP(Force<0, 1, 1, 1>)};
-static const Stamp rich_line = STAMP(Richly<0, 1>);
+static const Stamp rich_line = STAMP(Richly<0, 1, 0>);
 static const Stamp density_line = STAMP(Densities<0, 1>);
+static const Stamp grad_stamps[KERNEL_COUNT] = {KERNELS(GRAD_ROW)};
+static const Stamp grad_line = STAMP(Graduals<0, 1>);
 static const Stamp theta_line = STAMP(Thetas<0, 1>);
 /* clang-format on */
 
@@ -353,19 +360,24 @@ static Loop loop_of(const Sim *sim)
   a.volume = a.run.integrated ? 1 : 1 / volume, a.share = a.run.integrated ? 1 / volume : 1;
   a.more = sim->more, a.xsph = sim->par.xsph, a.diffusion = sim->par.diffusion;
   for (int k = 0; k < 3; k++) a.more.g[k] *= c->unit.length / (c->unit.speed * c->unit.speed);
+  a.grad = backend_grad(sim);
   a.kern = sim->par.kernel, a.miscible = !!sim->miscible;
   return a;
 }
 
-static void run_loop(Sim *sim, Run pack, const Stamp *loop)
+static void run_as(Sim *sim, const Loop a, Run pack, const Stamp *loop)
 {
   Cuda *c = cuda_of(sim);
   CudaError *error = &c->error;
-  const Loop a = loop_of(sim);
   const unsigned blocks = launch_blocks((size_t)sim->s.n, THREADS);
   LAUNCH(pack, launch_blocks((size_t)sim->s.all, THREADS), THREADS, 0, c->stream, a);
   LAUNCH(loop->each, blocks, THREADS, 0, c->stream, a);
   LAUNCH(loop->crowded, blocks, THREADS, 0, c->stream, a);
+}
+
+static void run_loop(Sim *sim, Run pack, const Stamp *loop)
+{
+  run_as(sim, loop_of(sim), pack, loop);
 }
 
 static void gradient(Sim *sim)
@@ -381,14 +393,22 @@ static void gradient(Sim *sim)
 
 static void density(Sim *sim)
 {
-  run_loop(sim, pack_places,
-           sim->s.dimension == 1 ? &density_line : &density_stamps[sim->par.kernel]);
+  const int line = sim->s.dimension == 1, kern = sim->par.kernel;
+  Loop a = loop_of(sim);
+  if (!sim->s.omega)
+    return run_as(sim, a, pack_places, line ? &density_line : &density_stamps[kern]);
+  for (int sum = 1; sum <= GRAD_SUMS; sum++) {
+    a.newton = sum < GRAD_SUMS;
+    run_as(sim, a, pack_places, line ? &grad_line : &grad_stamps[kern]);
+  }
 }
 
 static void force(Sim *sim)
 {
   const int line = sim->s.dimension == 1, solid = !!sim->tensor, miscible = !!sim->miscible;
-  if (sim->rich) return run_loop(sim, pack_rich, line ? &rich_line : &rich_stamps[sim->par.kernel]);
+  if (sim->rich)
+    return run_loop(sim, pack_rich,
+                    line ? &rich_line : &rich_stamps[sim->par.kernel][sim->more.grad]);
   run_loop(sim, solid || line ? pack_body<1> : pack_body<0>,
            line ? &force_line[miscible] : &force_stamps[sim->par.kernel][solid + 2 * miscible]);
 }

@@ -136,8 +136,9 @@ static __device__ __forceinline__ void test_tile(Desk *w, Piece *p)
 /* Whether i and j interact at x or at y. */
 static __device__ bool interact(const State &s, long i, long j)
 {
-  const double *x = s.x + 3 * i, *u = s.x + 3 * j, h = 0.5 * (s.h[i] + s.h[j]);
-  const double *y = s.y + 3 * i, *v = s.y + 3 * j, ha = 0.5 * (s.ha[i] + s.ha[j]);
+  const double half = 0.5 * (1 + s.margin);
+  const double *x = s.x + 3 * i, *u = s.x + 3 * j, h = half * (s.h[i] + s.h[j]);
+  const double *y = s.y + 3 * i, *v = s.y + 3 * j, ha = half * (s.ha[i] + s.ha[j]);
   double x2 = 0, y2 = 0;
 #pragma unroll
   for (int d = 0; d < 3; d++) {
@@ -257,7 +258,7 @@ static __device__ __forceinline__ void open_leaves(const Search &a, Desk *w, Pie
     const float4 d = __ldg(a.drift + node);
     first = link.z, count = link.w;
     extra = size3(d.x - w->box.drift[0], d.y - w->box.drift[1], d.z - w->box.drift[2]) * (1 + EPS);
-    loose = extra + d.w > LOOSE * __ldg(&a.hi[node].w);
+    loose = extra + d.w > LOOSE * (1 + (float)a.s.margin) * __ldg(&a.hi[node].w);
   }
   const int rest = w->leaf[32 + lane];
   p->loose |= __any_sync(ALL, loose) != 0;
@@ -373,8 +374,9 @@ static __device__ __forceinline__ void set_piece(const Search &a, Desk *w, Piece
   }
   if (on) {
     const float off = size3(d[0] - b.drift[0], d[1] - b.drift[1], d[2] - b.drift[2]);
-    h = (float)(a.s.h[i] * il);
-    s = fmaxf(0.5f * h, (float)(0.5 * a.s.ha[i] * il) + off) * 1.000001f + cell;
+    const double wide = (1 + a.s.margin) * il;
+    h = (float)(a.s.h[i] * wide);
+    s = fmaxf(0.5f * h, (float)(0.5 * a.s.ha[i] * wide) + off) * 1.000001f + cell;
   }
   b.reach = max_all(s), b.cell = cell, p->loose = b.reach > LOOSE * max_all(h);
   const float n = at[0] * at[0] + at[1] * at[1] + at[2] * at[2];

@@ -51,6 +51,55 @@ template <int kern, int line> struct Densities {
   }
 };
 
+/* The sums of grad_keep, each with the particle's own h. */
+typedef struct {
+  double delta, mass, rate;
+} Gradual;
+
+static __device__ __forceinline__ Gradual add_two(Gradual a, Gradual b)
+{
+  a.delta += b.delta, a.mass += b.mass, a.rate += b.rate;
+  return a;
+}
+
+static __device__ __forceinline__ void add_from(Gradual *a, int k)
+{
+  const Gradual b = {from_lane(a->delta, k), from_lane(a->mass, k), from_lane(a->rate, k)};
+  *a = add_two(*a, b);
+}
+
+template <int kern, int line> struct Graduals {
+  typedef Gradual Sum;
+
+  static __device__ __forceinline__ Gradual sum(const Loop &a, long i, int from, int step)
+  {
+    const int n = a.count[i];
+    const uint32_t *list = list_of(a, i);
+    real h, hj, own, m;
+    const Place xi = place_get(a.r.x, i, &h, &own);
+    Gradual sum = {0, 0, 0};
+    for (int k = from; k < n; k += step) {
+      const PairVector r = place_between(xi, place_get(a.r.x, neighbour(list, k), &hj, &m));
+      const real r2 = pair_dot(r, r), w = pair_weight(line ? a.kern : kern, line, &a.run, r2, h);
+      sum.delta += w, sum.mass += m * w;
+      sum.rate +=
+          (a.grad.miscible ? own : m) * pair_weight_rate(line ? a.kern : kern, line, &a.run, r2, h);
+    }
+    return sum;
+  }
+
+  static __device__ __forceinline__ void keep(const Loop &a, long i, Gradual sum)
+  {
+    real h, m;
+    place_get(a.r.x, i, &h, &m);
+    const real own = pair_weight(line ? a.kern : kern, line, &a.run, 0, h);
+    sum.delta += own, sum.mass += m * own;
+    sum.rate += m * pair_weight_rate(line ? a.kern : kern, line, &a.run, 0, h);
+    grad_keep(&a.s, &a.grad, i, sum.delta * a.rho / a.unit.mass, sum.mass * a.rho,
+              sum.rate * a.rho / a.unit.length, a.newton);
+  }
+};
+
 /* theta: sum V_j W_ij, the particle itself included. */
 typedef struct {
   double all;

@@ -213,7 +213,7 @@ static __device__ __forceinline__ float keep_place(const Build &a, long i, const
   float e[3];
   drift_of(a, i, e);
   const float off = size3(e[0] - drift[0], e[1] - drift[1], e[2] - drift[2]);
-  const double h = a.s.h[i], ha = a.s.ha[i];
+  const double wide = 1 + a.s.margin, h = wide * a.s.h[i], ha = wide * a.s.ha[i];
   float s = fmaxf((float)(0.5 * h * il), (float)(0.5 * ha * il) + off);
   if (!(h >= 0 && ha >= 0 && fmax(h, ha) * il < NOWHERE && size3(e[0], e[1], e[2]) < NOWHERE)) {
     atomicMin(&a.report->loose, (long long)a.s.id[i]);
