@@ -51,7 +51,8 @@ static Flow flow_of(const State *s, long i)
   return f;
 }
 
-static Body body_of(const State *s, long i)
+/* Inline: as a call it costs a tenth of the step. */
+static inline __attribute__((always_inline)) Body body_of(const State *s, long i)
 {
   const double *x = &s->x[3 * i];
   double w[3];
