@@ -36,7 +36,7 @@ END {
   for (k = 1; k <= n["front"]; k++) late += (when["front", k]*unit - passes(f, "front", value["front", k]))/n["front"]
   claim("rms distance of the front from the measured, clocks set [m]", distance("front", unit, late), 0, coarse, "0", measured)
   fact("by which the measured front is late [s]", late, "exact: 0.045", measured)
-  fact("rms distance without that [m]", distance("front", unit, 0), "exact: 0.26; DualSPHysics at 10 mm: 0.27", measured)
+  claim("rms distance of the front from the measured [m]", distance("front", unit, 0), 0, coarse, "exact: 0.26; DualSPHysics at 10 mm: 0.27", measured)
   claim("height at the wall, largest deviation from the measured over 2 m", deviation("left", "front", 1/T, 2), 0, 0.03, "exact: 0.022", measured)
   arrival = passes(x, "long", 5.37 - dx)*T; if (!hit) arrival = 1e99
   name = "arrival at the wall, t sqrt(g/H)"; sharp = sprintf("exact: %.2f", when["exact_arrival", 1]*T); source = exact "; other SPH codes: 2.68 at 20 mm, 2.55 to 2.60 at 10 mm"

@@ -27,7 +27,7 @@ $(OUT)/start.h5: | $(programs)
 	alter -j $(OUT)/ring.h5 -s 'Coordinates.x=Coordinates.x + if(BodyID == 0, -1, 1)*(4m + $(DX)m/2)' \
 	  -s 'Velocities.x=if(BodyID == 0, 0.059m/s, -0.059m/s)' -o $@ $(OUT)/ring.h5
 	$(remember)
-settings = --end $(END) --every 5 $(call sets,gravity.method=none kernel=cubic_spline smoothing.mode=fixed form.xsph=0.5 \
+settings = --end $(END) --every 5 $(call sets,gravity.method=none precision=double kernel=cubic_spline smoothing.mode=fixed form.xsph=0.5 \
   viscosity.alpha=1 viscosity.beta=2 $(SET))
 $(call from,$(OUT)/with/motion.tsv,$(settings) --set stress.artificial=0.2)
 $(call from,$(OUT)/without/motion.tsv,$(settings))
