@@ -93,6 +93,7 @@ static const char *unchecked(const Sim *sim)
   if (conflict_mirrors(&sim->par)) return "there are mirrors";
   if (sim->hold.on) return "walls or a layer change them";
   if (sim->par.damping > 0 || sim->par.spin_rate > 0) return "damping or spin change them";
+  if (sim->par.grad_h) return "grad-h terms are not in its sums (test_grad has them)";
   return NULL;
 }
 
