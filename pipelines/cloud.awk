@@ -11,7 +11,11 @@ FILENAME ~ /arms/ {
   if ($3 > top) { top = $3; first = parts }
   next
 }
-{ L = $at["L_z"]; if (L0 == "") L0 = L; turn = max(turn, abs(L/L0 - 1)) }
+{
+  L = $at["L_z"]; x = $at["x"]; y = $at["y"]; z = $at["z"]
+  if (L0 == "") { L0 = L; x0 = x; y0 = y; z0 = z }
+  turn = max(turn, abs(L/L0 - 1)); drift = max(drift, sqrt((x - x0)^2 + (y - y0)^2 + (z - z0)^2)/3.2e14)
+}
 function rho(when, r,   k) {
   for (k = 2; k < rows[r] && t[r, k] < when; k++);
   return d[r, k - 1] + (d[r, k] - d[r, k - 1])*(when - t[r, k - 1])/(t[r, k] - t[r, k - 1])
@@ -34,4 +38,5 @@ END {
   claim("condensations at 1.2 t_ff: distance from the centre, over R", apart/2, 0.05, 0.4, "0.05 to 0.4", "")
   fact("their distance from each other, over R", apart, "", "")
   claim("change of the angular momentum over it", turn, 0, 5e-4, "0", "")
+  claim("drift of the centre of mass, over R", drift, 0, 1e-3, "0", "")
 }

@@ -13,5 +13,5 @@ $probe << EOD
 EOD
 set logscale y; set format y '10^{%L}'; set xlabel 't/t_{ff}'; set ylabel 'largest density [kg/m^3]'; set key left top
 title_of(file) = file[strstrt(file, 'density') + 8 : strlen(file) - 4].' R'
-plot ARG2 using 1:2 with linespoints pt 7 ps 0.5 title 'softened by h', \
-  for [k = 3:ARGC] ARGV[k] using 1:2 with linespoints pt 7 ps 0.5 title title_of(ARGV[k]), $probe using 1:2 with points pt 6 title 'another code, 8217 particles'
+plot for [k = 2:ARGC] ARGV[k] using 1:2 with linespoints pt 7 ps 0.5 title k > 2 ? title_of(ARGV[k]) : 'softened by h', \
+  $probe using 1:2 with points pt 6 title 'another code, 8217 particles'
