@@ -3,7 +3,7 @@
 #   make -f pipelines/cloud.mk [SIZE=small|medium|large]
 # Boss & Bodenheimer (1979), ApJ 234, 289, as in Schaefer et al. (2016), section 4.2: one solar mass in 3.2e14 m, 10 K, Omega 1.6e-12/s,
 # density 1 + 0.5 cos(2 phi). Gravity is softened with each pair's h, as in the paper, and with Plummer's lengths of Bate & Burkert (1997),
-# MNRAS 288, 1060. Times in free-fall times of M and R, 5.519e11 s (the paper's 5.529e11 fits neither M and R nor its density).
+# MNRAS 288, 1060. h ends at 1e-9 kg/m^3 (smoothing.min), where the gas no longer is isothermal. Times in free-fall times of M and R, 5.519e11 s (the paper's 5.529e11 fits neither M and R nor its density).
 
 # particles
 N = $(call by_size,8200,137000,2000000)
@@ -27,7 +27,7 @@ $(OUT)/start.h5: | $(programs)
 	  alter $(turn) -s 'd=hypot(Coordinates.x, Coordinates.y)' -s 'Coordinates.x=d*cos(f)' -s 'Coordinates.y=d*sin(f)' \
 	    -s 'Velocities.x=-1.6e-12*Coordinates.y/1s' -s 'Velocities.y=1.6e-12*Coordinates.x/1s' > $@
 	$(remember)
-settings = $(call sets,gravity.theta=0.5 density=sum smoothing.mode=neighbours smoothing.neighbours=50 smoothing.min=0.001 kernel=cubic_spline $1 $(SET))
+settings = $(call sets,gravity.theta=0.5 density=sum smoothing.mode=neighbours smoothing.neighbours=50 smoothing.min=0.02 kernel=cubic_spline $1 $(SET))
 output = --end 6.6228e11 --every 2.7595e10
 $(call from,$(OUT)/density.tsv,$(output) $(call settings))
 $(foreach l,$(LENGTHS),$(call from,$(OUT)/density_$l.tsv,$(output) $(call settings,gravity.softening=plummer gravity.epsilon=$(shell echo $l | awk '{ print $$1*3.2e14 }'))))

@@ -39,17 +39,18 @@ settings = $(call sets,gravity.method=none force.y=-9.81 walls.body1=held kernel
   form.diffusion=0.05 $(SET))
 $(call from,$(OUT)/long.tsv,--end $(END) --every 0.02 $(settings))
 $(call from,$(OUT)/front.tsv,--end $(END_FRONT) --every 0.02 $(settings))
-# t, tip, front (where the water is 0.05 m deep: its capillary length, 2.7 mm, at the size of the experiment), height at the left wall, pressure at the
-# right wall 0.2 m up, water outside, largest change of density, mass; a row a snapshot. Depths are those of bins two spacings wide.
+# t, tip, front (where the water is 0.05 m deep: its capillary length, 2.7 mm, at the size of the experiment), height at the left wall (without
+# drops above the water: gaps of two spacings), pressure at the right wall 0.2 m up, water outside, largest change of density, mass; a row a snapshot.
+# Depths are those of bins two spacings wide.
 $(cases:%=$(OUT)/%.tsv): $(OUT)/%.tsv: $(OUT)/%.h5
 	$(call run,$(OUT)/$*)
 	for f in $(OUT)/$*/snap_*.h5; do t=$${f##*_}; t=$${t%.h5}; \
 	  columns -f Coordinates.x -f Coordinates.y -f BodyID -f Pressure -f Density -f Masses $$f | \
 	    awk -F'\t' -v t=$$((10#$$t)) -v dx=$(DX) -v W=$(if $(filter long,$*),5.37,4) '/^#/ { next } \
 	      $$3 { if ($$1 > W && $$1 < W + dx && $$2 > 0.2 - 1.5*dx && $$2 < 0.2 + 1.5*dx) { p += $$4; n++ } next } \
-	      { m += $$6; x = $$1 > x ? $$1 : x; if ($$1 < 2.5*dx && $$2 > y) y = $$2; if ($$1 < -dx || $$1 > W + dx || $$2 < -dx) out++; \
+	      { m += $$6; x = $$1 > x ? $$1 : x; if ($$1 < 2.5*dx) { k = int($$2/(2*dx)); if ($$2 > top[k]) top[k] = $$2 } if ($$1 < -dx || $$1 > W + dx || $$2 < -dx) out++; \
 	        depth[int($$1/(2*dx))] += $$6/$$5/(2*dx); d = $$5/1000 - 1; d = d < 0 ? -d : d; if (d > worst) worst = d } \
-	      END { k = int(x/(2*dx)); while (k && depth[k] < 0.05) k--; \
+	      END { for (k = 0; k in top; k++) y = top[k]; k = int(x/(2*dx)); while (k && depth[k] < 0.05) k--; \
 	        front = 2*dx*(k + 0.5 + (depth[k] - 0.05)/(depth[k] - depth[k + 1])); \
 	        printf "%.2f\t%.6g\t%.6g\t%.6g\t%.6g\t%d\t%.6g\t%.12g\n", 0.02*t, x + dx/2, front, y + dx/2, p/n, out, worst, m }'; done > $@
 	$(remember)

@@ -14,9 +14,9 @@ function write(n,   k, r, x, rho, m) {
   }
 }
 /^#/ { if (FILENAME ~ /conserved/) for (k = 1; k <= NF; k++) { name = $k; sub(/^# /, "", name); sub(/\[.*/, "", name); at[name] = k }; next }
-FILENAME ~ /settled/ { if ($1 < 0.8) { off += ($2/density($1) - 1)^2; inside++ }; next }
+FILENAME ~ /settled/ { U += $3*$4/$2; if ($1 < 0.8) { off += ($2/density($1) - 1)^2; inside++ }; next }
 FILENAME ~ /pulse/ { t[++rows] = $1; R[rows] = $2; mean += $2; next }
-{ e = $at["E_kinetic"] + $at["E_potential"]; L = max(L, abs($at["L_z"])) }
+!pull { pull = $at["E_potential"] }
 END {
   if (profile) exit
   mean /= rows; big = 0
@@ -29,5 +29,6 @@ END {
   claim("density at rest off the exact one, rms, r < 0.8", sqrt(off/inside), 0, wide, "0", "Lane-Emden, index 1")
   period = turns > 1 ? (to - from)/(turns - 1) : 0; wide = n < 3e4 ? 0.05 : n < 5e5 ? 0.025 : 0.01
   claim("period of the fundamental mode", period, 3.24254*(1 - wide), 3.24254*(1 + wide), "3.24254", "adiabatic wave equation, Gamma 2")
+  claim("at rest: E_potential + 3 (Gamma - 1) U, over E_potential", (pull + 3*U)/pull, -0.01, 0.01, "0", "virial theorem")
   fact("largest change of R_rms", big/mean, "", "")
 }

@@ -38,7 +38,7 @@ $(OUT)/pulse.tsv: $(OUT)/start.h5
 	  awk '/^#/ { next } { m += $$1; s += $$1*$$2^2 } END { print sqrt(s/m) }'; done | awk '{ print (NR - 1)*$(EVERY) "\t" $$1 }' > $@
 	$(remember)
 $(OUT)/settled.tsv: $(OUT)/settled.h5
-	columns -f '|Coordinates|' -f Density -f Masses $< > $@
+	columns -f '|Coordinates|' -f Density -f Masses -f Pressure $< > $@
 
 $(OUT)/verdict.tsv: $(here)polytrope.awk $(OUT)/settled.tsv $(OUT)/pulse.tsv
 	$(call judge,polytrope.awk) -v n=$(N) $(OUT)/settled.tsv $(OUT)/pulse.tsv $(OUT)/run/conserved.tsv > $@
