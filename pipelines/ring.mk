@@ -5,7 +5,7 @@
 # nu = 3e-4 r^g: tau = 12 nu t (g = 0) from 0.018 to 0.05, or 3 nu t (alpha c H, g = 1) over a quarter of that: 1.4 turns.
 
 # spacing of the particles; all of these are run
-DX = $(call up_to,0.04 0.028,0.02 0.01,0.005)
+DX = $(call up_to,0.04 0.028,0.02,0.01)
 # further settings of the solver, KEY=VALUE
 SET =
 
