@@ -35,8 +35,7 @@ $(foreach l,$(LENGTHS),$(call from,$(OUT)/density_$l.tsv,$(output) $(call settin
 define densest
 $(call run,$1)
 printf '# t/t_ff\tlargest density[kg/m^3]\n' > $@
-k=0; for s in $1/snap_*.h5; do columns -f Density $$s | \
-  awk -v t=$$k '!/^#/ && $$1 + 0 > top { top = $$1 + 0 } END { print t*0.05 "\t" top }'; k=$$((k + 1)); done >> $@
+k=0; for s in $1/snap_*.h5; do info -s fields $$s | awk -F'\t' -v t=$$k '$$1 == "Density" { print t*0.05 "\t" $$7 }'; k=$$((k + 1)); done >> $@
 $(remember)
 endef
 $(OUT)/density.tsv: $(OUT)/start.h5
@@ -45,7 +44,7 @@ softer = $(LENGTHS:%=$(OUT)/density_%.tsv)
 $(softer): $(OUT)/density_%.tsv: $(OUT)/start.h5
 	$(call densest,$(OUT)/run_$*)
 $(OUT)/arms.tsv: $(OUT)/density.tsv
-	columns -f Coordinates.x -f Coordinates.y -f Density -w 'Density > 0' $$(ls $(OUT)/run/snap_*.h5 | tail -1) > $@
+	columns -f Coordinates.x -f Coordinates.y -f Density -w 'Density > 1e-13kg/m^3' $$(ls $(OUT)/run/snap_*.h5 | tail -1) > $@
 
 $(OUT)/verdict.tsv: $(here)cloud.awk $(OUT)/density.tsv $(OUT)/arms.tsv $(softer)
 	$(call judge,cloud.awk) -v n=$(N) $(OUT)/density.tsv $(softer) $(OUT)/arms.tsv $(OUT)/run/conserved.tsv > $@

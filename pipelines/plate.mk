@@ -33,7 +33,7 @@ $(runs:%=%/start.h5): $(OUT)/v%/start.h5: $(OUT)/plate.cfg | $(programs)
 	  alter -s 'Coordinates.x=Coordinates.x + 70mm' -s 'Coordinates.y=Coordinates.y + 10mm' -s 'BodyID=Coordinates.x < 0m' \
 	    -s 'Velocities.y=if(BodyID == 1, 0, $**57.0266*($(mode)))*1m/s' -o $@
 	$(remember)
-settings = --end 0.36 --every 0.004 $(call sets,gravity.method=none kernel=cubic_spline smoothing.mode=fixed stress.artificial=0.2 walls.body1=held viscosity.alpha=0.05 viscosity.beta=0 $(SET))
+settings = --end 0.36 --every 0.004 $(call sets,gravity.method=none smoothing.mode=fixed stress.artificial=0.2 walls.body1=held viscosity.alpha=0.05 viscosity.beta=0 $(SET))
 $(call from,$(runs:%=%/tip.tsv),$(settings))
 $(runs:%=%/tip.tsv): %/tip.tsv: %/start.h5
 	$(call run,$*/run)

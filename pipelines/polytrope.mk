@@ -20,9 +20,9 @@ pictures = $(OUT)/polytrope.png
 $(OUT)/profile.tsv:
 	@mkdir -p $(@D)
 	awk -f $(here)verdict.awk -f $(here)polytrope.awk -v profile=1 > $@
-$(call from,$(OUT)/placed.h5,-n $(N))
+$(call from,$(OUT)/placed.h5,--lattice stretched -n $(N))
 $(OUT)/placed.h5: $(OUT)/profile.tsv | $(programs)
-	mksphere --lattice stretched $(vars) -p $< -o $@
+	mksphere $(vars) -p $< -o $@
 	$(remember)
 settings = $(call sets,gravity.G=1 density=sum smoothing.mode=neighbours form.grad_h=true viscosity.alpha=0.05 viscosity.beta=0 step.cfl=0.3 $(SET))
 $(call from,$(OUT)/settled.h5,--end +10 --every 10 --set damping.rate=2 $(settings))
