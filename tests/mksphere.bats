@@ -117,6 +117,13 @@ setup() { cd "$BATS_TEST_TMPDIR"; }
   mksphere -n 1500 --mass 5e24kg --layer iron:0.4:T=2000K --layer granite:2000km:u=0 2>&1 | grep -q 'give fewer'
 }
 
+@test "what the kernel makes of the close packing: sums and forces of pressure" {
+  said() { mksphere -n 9000 --radius 1km -l granite --neighbours "$1" 2>&1 >b.h5 | sed -n "s/.*$2 \([^ ]*\)[ ,].*/\1/p"; }
+  # lattice sums on their own, -sum r W'(r)/(3 n) - 1 over the sites
+  true_that 'near(a, -2.36e-2, 2e-2) && near(b, -6e-4, 0.1)' a="$(said 57 'pressure by')" b="$(said 100 'pressure by')"
+  true_that 'near(a, 1.24e-2, 1e-2)' a="$(said 57 'density off by')"
+}
+
 @test "porous layers: bulk density and radius, Distention, and no way to compress them" {
   mksphere -n 1000 --radius 10km --layer basalt:0.6 --layer ice:0.4:pores=0.25 -o b.h5
   paste <(field b.h5 MaterialID) <(field b.h5 Density) <(field b.h5 Distention) <(field b.h5 Masses) | awk '

@@ -10,6 +10,8 @@ typedef struct {
   long inside;     /* particles whose support holds one layer and no surface */
   double density;  /* rms of SPH density over the structure's, minus 1; of those inside */
   double noise;    /* standard deviation of the same: what is left when the mean is taken off */
+  double push;     /* how much weaker (< 0) or stronger than p pressure acts: mean of
+                      -(1/D) sum V_j x.grad W minus 1; of those inside */
   double pressure; /* rms of p(SPH density, u) minus the structure's, over the central pressure */
   double mass;     /* rms of M(<r) of the particles minus the structure's, over the whole */
 } Errors;

@@ -262,10 +262,11 @@ static void quality(const Body *b, const Parts *p)
   Err err;
   if (errors_measure(&e, p, b->by_mat, b->s, &err)) err_die("%s", err.text);
   if (e.inside)
-    fprintf(stderr,
-            "mksphere: SPH density off by %.2e rms, its noise %.2e, in %ld particles away "
-            "from surfaces",
-            e.density, e.noise, e.inside);
+    fprintf(
+        stderr,
+        "mksphere: SPH density off by %.2e rms, its noise %.2e, forces of pressure by %+.1e, in "
+        "%ld particles away from surfaces",
+        e.density, e.noise, e.push, e.inside);
   else
     fprintf(stderr, "mksphere: no particle is away from all surfaces");
   if (!isnan(e.pressure)) fprintf(stderr, "; pressure %.2e of the central one", e.pressure);
