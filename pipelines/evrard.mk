@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Evrard's collapse: a cold gas sphere of density 1/(2 pi r) falls onto itself, bounces, and a shock runs out. Gravity and gas at once.
 #   make -f pipelines/evrard.mk [SIZE=small|medium|large]
-# Evrard (1988), MNRAS 235, 911: M = R = G = 1, u = 0.05, gamma 5/3. References: a 1-D Lagrangian calculation of 1500 shells.
+# Evrard (1988), MNRAS 235, 911: M = R = G = 1, u = 0.05, gamma 5/3. References: 1-D Lagrangian calculations (tests/test_evrard.c).
 
 # particles
 N = $(call by_size,9000,100000,1000000)
@@ -18,6 +18,7 @@ SET =
 here := $(dir $(lastword $(MAKEFILE_LIST)))
 include $(here)lab.mk
 pictures = $(OUT)/evrard.png
+reference = $(firstword $(wildcard $(here)../tests/data/evrard.tsv $(here)data/evrard.tsv))
 
 # A uniform sphere stretched radially: r to r^(3/2) makes 1/r of equal masses; h is that of 57 neighbours at its density.
 $(call from,$(OUT)/start.h5,$(N))
@@ -36,7 +37,7 @@ $(OUT)/profile.tsv: $(OUT)/energies.tsv
 	columns -f '|Coordinates|' -f Density -f Pressure -f '(Coordinates.x*Velocities.x+Coordinates.y*Velocities.y+Coordinates.z*Velocities.z)/max(|Coordinates|, 1e-9m)' \
 	  $(OUT)/run/snap_0001.h5 > $@
 
-$(OUT)/verdict.tsv: $(here)evrard.awk $(OUT)/energies.tsv
-	$(call judge,evrard.awk) -v n=$(N) $(OUT)/energies.tsv > $@
-$(OUT)/evrard.png: $(here)evrard.gp $(OUT)/energies.tsv $(OUT)/profile.tsv
+$(OUT)/verdict.tsv: $(here)evrard.awk $(reference) $(OUT)/profile.tsv $(OUT)/energies.tsv
+	$(call judge,evrard.awk) -v n=$(N) $(reference) $(OUT)/profile.tsv $(OUT)/energies.tsv > $@
+$(OUT)/evrard.png: $(here)evrard.gp $(OUT)/energies.tsv $(OUT)/profile.tsv $(reference)
 	gnuplot -c $^ $@
