@@ -2,9 +2,10 @@
 /* Evrard's collapse as a 1-D Lagrangian calculation: the reference of pipelines/evrard.mk. The rows
  * of tests/data/evrard.tsv must come out again, and the energies that another such code has.
  *
- * Shells of equal mass, radii and velocities at their borders, the scheme of von Neumann & Richtmyer
- * (1950, J. Appl. Phys. 21, 232): leapfrog, an artificial pressure rho (2 dv^2 + 0.5 c |dv|) under
- * compression, the energy by an implicit trapezium. M = R = G = 1, u = 0.05, rho = 1/(2 pi r). */
+ * Shells of equal mass, radii and velocities at their borders, the scheme of von Neumann and
+ * Richtmyer (1950, J. Appl. Phys. 21, 232): leapfrog, an artificial pressure rho (2 dv^2 + 0.5 c
+ * |dv|) under compression, the energy by an implicit trapezium. M = R = G = 1, u = 0.05 and
+ * rho = 1/(2 pi r). */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -17,7 +18,7 @@
 #define GAMMA  (5.0 / 3.0)
 #define PI     3.14159265358979323846
 
-/* Borders 0..SHELLS: r, v; shells: u, rho, p, artificial pressure q. dt is the step that led here. */
+/* Borders 0..SHELLS: r, v; shells: u, rho, p, artificial pressure q. dt: the last step. */
 typedef struct {
   double t, dt;
   double r[SHELLS + 1], v[SHELLS + 1], u[SHELLS], rho[SHELLS], p[SHELLS], q[SHELLS];
