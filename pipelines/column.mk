@@ -30,9 +30,11 @@ $(runs:%=%/start.h5): $(OUT)/a%/start.h5: | $(programs)
 	$(remember)
 $(call from,$(runs:%=%/end.tsv),--end 0.8 --every 0.1 $(call sets,gravity.method=none force.y=-9.81 walls.body1=held kernel=cubic_spline pressure_form=product \
   smoothing.mode=fixed viscosity.alpha=0.05 viscosity.beta=0 $(SET)))
+# Grains that touch are up to 1.5 spacings apart; fragment 1 is the largest heap of them, the main mass.
 $(runs:%=%/end.tsv): $(OUT)/a%/end.tsv: $(OUT)/a%/start.h5
 	$(call run,$(@D)/run)
-	columns -w 'BodyID == 0' -f $* -f Coordinates.x -f Coordinates.y -f '|Velocities|' $(@D)/run/snap_0008.h5 > $@
+	alter -k 'BodyID == 0' $(@D)/run/snap_0008.h5 | fof --length $$(awk 'BEGIN { print 1.5*0.1/$(N) }')m -o $(@D)/grains.h5 > $(@D)/heaps.tsv
+	columns -f $* -f Coordinates.x -f Coordinates.y -f '|Velocities|' -f FragmentID $(@D)/grains.h5 > $@
 	$(remember)
 
 $(call from,$(OUT)/verdict.tsv,$(runs))
