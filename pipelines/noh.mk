@@ -7,8 +7,8 @@
 N = $(call by_size,33000,500000,8000000)
 # behind the shock, where the lattice breaks up, the density by continuity drifts with the number of steps; sums are off before it with few particles
 FORM = density=$(call by_size,continuity,sum,sum)
-# neighbours: 100, as Dehnen & Aly (2012) ask of this kernel. A close packing squeezed threefold along two axes, as before the shock, has sums that are 1.1 %
-# too large with these and 4 % with 57 (docs/validation.md); but with few particles the shock then reaches out to where this is judged.
+# neighbours: 100, as Dehnen & Aly (2012) ask of this kernel. A close packing squeezed threefold along two axes, as before the shock, has sums that are 1.0 %
+# too large with these and 3.5 % with 57 (docs/validation.md); but with few particles the shock then reaches out to where this is judged.
 NEIGHBOURS = $(call by_size,57,100,100)
 # further settings of the solver, KEY=VALUE
 SET =
