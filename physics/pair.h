@@ -53,23 +53,29 @@ HD real pair_weight_rate(int kern, int line, const PairRun *run, real r2, real h
           q * q * kernel_dwq(kern, line ? 1 : 3, q));
 }
 
-/* Loop A: contributions to the raw velocity gradient g_ab = sum V_j (v_j - v_i)_a dW_b [1/s] and to
+/* Loop A: contributions to the raw velocity gradient g_ab = sum V_j (v_j - v_i)_a dW_b [1/s], to
  * the moment matrix M_ab = sum V_j (x_j - x_i)_a dW_b, symmetric (001 eq. 41-44 with the errata of
- * docs/theory.md 9). */
+ * docs/theory.md 9). spread: M_aa less what it would be if all of r^2 were D h^2/60; at most 0
+ * where neighbours are closer than that in the mean (theory 2.3). */
 typedef struct {
   real gxx, gxy, gxz, gyx, gyy, gyz, gzx, gzy, gzz;
   real mxx, mxy, mxz, myy, myz, mzz;
+  real spread;
 } PairGradient;
+
+/* pair_wide: the factor on a whole M: 1, or 0 where spread says that the neighbours lie close
+ * together and gradients stay raw (a factor, as a flag costs the loops on a card registers). */
+HD real pair_wide(real spread) { return spread > 0; }
 
 /* pair_gradient: r = r_i - r_j [m], v = v_i - v_j [m/s], volume m_j/rho_j [m^D]; for a fluid only
  * gxx is set, and holds the divergence. */
 HD PairGradient pair_gradient(PairVector r, PairVector v, real h, real volume, int kern, int line,
                               int solid, const PairRun *run)
 {
-  PairGradient o = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+  PairGradient o = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
   int inside;
-  real over,
-      f = -volume * pair_slope(kern, line, run, real_root(pair_dot(r, r), &over), h, &inside);
+  real over, r2 = pair_dot(r, r),
+             f = -volume * pair_slope(kern, line, run, real_root(r2, &over), h, &inside);
   real wx = f * r.x, wy = f * r.y, wz = f * r.z;
   if (!solid) {
     o.gxx = v.x * wx + v.y * wy + v.z * wz;
@@ -80,6 +86,7 @@ HD PairGradient pair_gradient(PairVector r, PairVector v, real h, real volume, i
   o.gzx = v.z * wx, o.gzy = v.z * wy, o.gzz = v.z * wz;
   o.mxx = r.x * wx, o.mxy = r.x * wy, o.mxz = r.x * wz;
   o.myy = r.y * wy, o.myz = r.y * wz, o.mzz = r.z * wz;
+  o.spread = f * (r2 - (real)run->dimension / 60 * h * h);
   return o;
 }
 

@@ -375,7 +375,8 @@ HD void pass_settle(const State *s, const Step *k, long i)
 /* pass_correct: divv, and the corrected velocity gradient g = raw C with C, the inverse of the
  * moment matrix m (001 eq. 42-44), kept in cm. Dimensions that are held count as the mean of the
  * others. Particles whose neighbours span no volume (det m < sheet, 1 %, of the cube of the mean
- * eigenvalue) keep the raw gradient, as all do with form.gradient = raw. */
+ * eigenvalue) or lie close together (m = 0, pair_wide) keep the raw gradient, as all do with
+ * form.gradient = raw. */
 HD void pass_correct(const State *s, long i, const double raw[9], Sym m)
 {
   double *g = &s->g[9 * i], mean, det;

@@ -194,7 +194,7 @@ static double weight(const Sim *sim, const State *s, long i, long j, const PairR
 static void brute_flow(const Sim *sim, const State *s, long i, const PairRun *run, Brute *o)
 {
   int line = run->dimension == 1;
-  double raw[9] = {0}, keep[16];
+  double raw[9] = {0}, keep[16], spread = 0;
   Sym m = {0, 0, 0, 0, 0, 0};
   for (long j = 0; j < s->n; j++) {
     PairVector x = between(&s->x[3 * i], &s->x[3 * j]), y = between(&s->y[3 * i], &s->y[3 * j]);
@@ -209,9 +209,10 @@ static void brute_flow(const Sim *sim, const State *s, long i, const PairRun *ru
     Sym moment = {f.mxx, f.mxy, f.mxz, f.myy, f.myz, f.mzz};
     const double *g = &f.gxx;
     for (int k = 0; k < 9; k++) raw[k] += volume * g[k], o->flow += volume * fabs(g[k]);
-    m = tensor_axpy(m, volume, moment);
+    m = tensor_axpy(m, volume, moment), spread += volume * f.spread;
   }
   memcpy(keep, &s->g[9 * i], 72), memcpy(keep + 9, &s->cm[6 * i], 48), keep[15] = s->divv[i];
+  m = tensor_scale(m, pair_wide(spread));
   pass_correct(s, i, raw, m);
   memcpy(o->g, &s->g[9 * i], 72), o->divv = s->divv[i];
   memcpy(&s->g[9 * i], keep, 72), memcpy(&s->cm[6 * i], keep + 9, 48), s->divv[i] = keep[15];

@@ -109,10 +109,10 @@ static inline __attribute__((always_inline)) void gradient_of(const State *s, lo
                                                               int solid, const PairRun *run)
 {
   double gxx = 0, gxy = 0, gxz = 0, gyx = 0, gyy = 0, gyz = 0, gzx = 0, gzy = 0, gzz = 0;
-  double mxx = 0, mxy = 0, mxz = 0, myy = 0, myz = 0, mzz = 0;
+  double mxx = 0, mxy = 0, mxz = 0, myy = 0, myz = 0, mzz = 0, spread = 0;
   Flow self = *me;
 #pragma omp simd reduction(+ : gxx, gxy, gxz, gyx, gyy, gyz, gzx, gzy, gzz)                        \
-    reduction(+ : mxx, mxy, mxz, myy, myz, mzz)
+    reduction(+ : mxx, mxy, mxz, myy, myz, mzz, spread)
   for (long k = 0; k < n; k++) {
     PairVector r = {self.x - AT(0), self.y - AT(1), self.z - AT(2)};
     PairVector v = {self.vx - AT(3), self.vy - AT(4), self.vz - AT(5)};
@@ -120,14 +120,16 @@ static inline __attribute__((always_inline)) void gradient_of(const State *s, lo
     gxx += o.gxx, gxy += o.gxy, gxz += o.gxz, gyx += o.gyx, gyy += o.gyy, gyz += o.gyz,
         gzx += o.gzx, gzy += o.gzy, gzz += o.gzz;
     mxx += o.mxx, mxy += o.mxy, mxz += o.mxz, myy += o.myy, myz += o.myz, mzz += o.mzz;
+    spread += o.spread;
   }
   const double w = passes_share(s, i);
   if (!solid) {
     s->divv[i] = w * gxx;
   } else {
+    const double wm = w * pair_wide(spread);
     const double raw[9] = {w * gxx, w * gxy, w * gxz, w * gyx, w * gyy,
                            w * gyz, w * gzx, w * gzy, w * gzz};
-    const Sym m = {w * mxx, w * mxy, w * mxz, w * myy, w * myz, w * mzz};
+    const Sym m = {wm * mxx, wm * mxy, wm * mxz, wm * myy, wm * myz, wm * mzz};
     pass_correct(s, i, raw, m);
   }
 }

@@ -76,6 +76,7 @@ static __device__ __forceinline__ PairGradient add_two(PairGradient a, PairGradi
   a.gxx += b.gxx, a.gxy += b.gxy, a.gxz += b.gxz, a.gyx += b.gyx, a.gyy += b.gyy, a.gyz += b.gyz;
   a.gzx += b.gzx, a.gzy += b.gzy, a.gzz += b.gzz;
   a.mxx += b.mxx, a.mxy += b.mxy, a.mxz += b.mxz, a.myy += b.myy, a.myz += b.myz, a.mzz += b.mzz;
+  a.spread += b.spread;
   return a;
 }
 
@@ -89,11 +90,11 @@ static __device__ __forceinline__ void scale(PairGradient *a, real w)
 /* Each lane adds what the lane with the other bit k has. */
 static __device__ __forceinline__ void add_from(PairGradient *a, int k)
 {
-  const PairGradient b = {from_lane(a->gxx, k), from_lane(a->gxy, k), from_lane(a->gxz, k),
-                          from_lane(a->gyx, k), from_lane(a->gyy, k), from_lane(a->gyz, k),
-                          from_lane(a->gzx, k), from_lane(a->gzy, k), from_lane(a->gzz, k),
-                          from_lane(a->mxx, k), from_lane(a->mxy, k), from_lane(a->mxz, k),
-                          from_lane(a->myy, k), from_lane(a->myz, k), from_lane(a->mzz, k)};
+  const PairGradient b = {
+      from_lane(a->gxx, k), from_lane(a->gxy, k), from_lane(a->gxz, k), from_lane(a->gyx, k),
+      from_lane(a->gyy, k), from_lane(a->gyz, k), from_lane(a->gzx, k), from_lane(a->gzy, k),
+      from_lane(a->gzz, k), from_lane(a->mxx, k), from_lane(a->mxy, k), from_lane(a->mxz, k),
+      from_lane(a->myy, k), from_lane(a->myz, k), from_lane(a->mzz, k), from_lane(a->spread, k)};
   *a = add_two(*a, b);
 }
 
@@ -109,7 +110,7 @@ template <int kern, int line, int solid, int weighted> struct Gradient {
     const uint32_t *list = list_of(a, i);
     real hi, hj, volume, none;
     const Place xi = place_get(a.r.x, i, &hi, &none), vi = place_get(a.r.v, i, &volume, &none);
-    PairGradient g = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+    PairGradient g = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
     for (int k = from; k < n; k += step) {
       const long j = neighbour(list, k);
       const Place xj = place_get(a.r.x, j, &hj, &none), vj = place_get(a.r.v, j, &volume, &none);
@@ -133,7 +134,8 @@ template <int kern, int line, int solid, int weighted> struct Gradient {
     } else {
       const double raw[9] = {rate * g.gxx, rate * g.gxy, rate * g.gxz, rate * g.gyx, rate * g.gyy,
                              rate * g.gyz, rate * g.gzx, rate * g.gzy, rate * g.gzz};
-      const Sym m = {g.mxx, g.mxy, g.mxz, g.myy, g.myz, g.mzz};
+      const real w = pair_wide(g.spread);
+      const Sym m = {w * g.mxx, w * g.mxy, w * g.mxz, w * g.myy, w * g.myz, w * g.mzz};
       pass_correct(&a.s, i, raw, m);
     }
   }
