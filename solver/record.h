@@ -7,17 +7,6 @@
 #include "elastic.h"
 #include "step.h"
 
-/* passes_stiffen: the wave speed that limits the step where the neighbours hardly span a volume.
- * Strain rates and stresses go with C, so the waves of the shear modulus see particles that are
- * 1/sqrt(|C|) of h apart, and a thread or sheet oscillates at up to 4.5 sqrt(4 mu/(3 rho) |C|)/h
- * (theory 2.3). Edges and corners of a body, |C| of at most ten, keep their steps. left: what
- * damage leaves of S. */
-HD void passes_stiffen(const State *s, long i, Sym c, double left)
-{
-  const double over = sqrt(tensor_dot(c, c)) - 10, cl2 = s->cl[i] * s->cl[i];
-  if (over > 0 && left > 0) s->cl[i] = sqrt(cl2 + left * over * (cl2 - s->cs[i] * s->cs[i]));
-}
-
 /* passes_pack: p and S C (of a viscous fluid its stress times C) as the force loop takes them: p
  * (of walls of a fluid never negative) above the pressure outside, which thereby acts on free
  * surfaces. C, the inverse moment matrix of loop A,
@@ -39,7 +28,6 @@ HD void passes_pack(const State *s, const Step *k, long i, int solid, double dt)
                                    : tensor_scale(passes_stress(&s->s[6 * i]), left);
     if ((k->rich && k->more.squares) || k->density == 3) dev = tensor_scale(dev, size * size);
     tensor_product(dev, c, t);
-    if (solid) passes_stiffen(s, i, c, left);
   }
   if (k->rich) rich_extra(s, &k->more, i, left, solid, k->dt);
 }

@@ -104,43 +104,6 @@ static void sphere(void **state)
   assert_true(l < .8 && mom < 1e-12);
 }
 
-/* Two rows of particles a tenth of a spacing apart, as torn rubber has them in a plane: their
- * gradients are corrected by 176, so that they oscillate far faster than waves cross h, and the
- * step must know (passes_stiffen). Returns the energy over that at the start. */
-static double rows(double apart)
-{
-  Parts *p = lab_parts(40, 2,
-                       "name = \"r\"; eos = { form = \"murnaghan\"; rho0 = 1.; K = 1.; n = 1.; };"
-                       "strength = { shear_modulus = 0.22; form = \"none\"; };");
-  Param par = lab_param("gravity.method=none", "kernel=cubic_spline", "smoothing.mode=fixed",
-                        "viscosity.alpha=1", "viscosity.beta=2", NULL);
-  Sim sim;
-  Sums a, b;
-  for (long i = 0; i < 40; i++) {
-    const double side = i % 2 ? .5 : -.5;
-    p->x[3 * i] = i / 2, p->x[3 * i + 1] = side * apart;
-    p->v[3 * i + 1] = 5e-5 * sin(p->x[3 * i]);
-    p->m[i] = p->rho[i] = 1, p->h[i] = 3;
-  }
-  lab_open(&sim, &par, p);
-  lab_sums(&sim, &a);
-  const long steps = lab_run(&sim, 50);
-  lab_sums(&sim, &b);
-  const double grown = (b.kinetic + b.internal) / (a.kinetic + a.internal);
-  print_message("%.2f apart: %ld steps, E/E_0 = %.3f\n", apart, steps, grown);
-  sim_close(&sim);
-  part_free(p);
-  return grown;
-}
-
-static void thread(void **state)
-{
-  (void)state;
-  assert_true(fabs(rows(1) - 1) < .02);
-  assert_true(fabs(rows(.2) - 1) < .2);
-  assert_true(fabs(rows(.1) - 1) < .2);
-}
-
 /* The energy after 50 time units over that before, of 2^D particles `spacing` dx apart that have h
  * of a lattice of dx and small velocities. Their masses make a density of 1 at most. */
 static double clump(int dimension, double spacing, int kern, const char *kernel)
@@ -227,9 +190,9 @@ static void simple_shear(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(waves),       cmocka_unit_test(sphere),
-                                     cmocka_unit_test(thread),      cmocka_unit_test(clumps),
-                                     cmocka_unit_test(objectivity), cmocka_unit_test(rate_and_step),
-                                     cmocka_unit_test(simple_shear)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(waves),         cmocka_unit_test(sphere),
+      cmocka_unit_test(clumps),        cmocka_unit_test(objectivity),
+      cmocka_unit_test(rate_and_step), cmocka_unit_test(simple_shear)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
