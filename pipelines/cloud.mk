@@ -3,7 +3,8 @@
 #   make -f pipelines/cloud.mk [SIZE=small|medium|large]
 # Boss & Bodenheimer (1979), ApJ 234, 289, as in Schaefer et al. (2016), section 4.2: one solar mass in 3.2e14 m, 10 K, Omega 1.6e-12/s,
 # density 1 + 0.5 cos(2 phi). Gravity is softened with each pair's h, as in the paper, and with Plummer's lengths of Bate & Burkert (1997),
-# MNRAS 288, 1060. h ends at 1e-9 kg/m^3 (smoothing.min), where the gas no longer is isothermal. Times in free-fall times of M and R, 5.519e11 s (the paper's 5.529e11 fits neither M and R nor its density).
+# MNRAS 288, 1060. h ends at 1e-9 kg/m^3 (smoothing.min), where the gas no longer is isothermal.
+# Times in free-fall times of M and R, 5.519e11 s (the paper's 5.529e11 fits neither M and R nor its density).
 
 # particles
 N = $(call by_size,8200,137000,2000000)
